@@ -1,0 +1,75 @@
+// One picture of one scene under one rig: what the program's `render`, `compare` and `measure` call.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/picture.h"
+#include "renderer/scene/scene.h"
+
+namespace cutis {
+
+namespace gpu {
+class Device;
+}
+
+// How thicknesses of several light samples merge into one per texel (DESIGN §1.4).
+enum class Merge { min };
+
+struct RenderSettings {
+    int width = 1280, height = 720;
+    int irradianceSize = 0;  // the atlas is exactly this many texels square; 0: chosen from the picture
+    int gaussians = 0;       // the profile is reduced to this many Gaussians; 0: all
+    Merge merge = Merge::min;
+    bool prune = true;  // false: run also what could be left out, on neutral inputs
+    std::uint32_t seed = 0;
+    std::vector<std::string> aovs;  // of kAovNames
+};
+
+// Names that --aov takes, in the order that --help prints.
+inline constexpr const char* kAovNames[] = {"diffuse", "specular", "irradiance", "thickness", "albedo",
+                                            "normal",  "position", "depth",      "character"};
+
+struct RenderInput {
+    const Scene* scene = nullptr;
+    Rig rig;                                  // enabled lights only count; placements resolved (resolvePlacements)
+    const Environment* environment = nullptr;  // nullptr: none
+    Camera camera;                            // see cameraFor in scene/camera.h
+};
+
+struct PassStats {
+    std::string name;
+    int runs = 0;
+    double gpuMs = 0;
+    std::string reason;  // why it runs
+};
+
+struct LeftOut {
+    std::string name, reason;
+};
+
+// Figures of one picture; `--stats` writes them with the keys of DESIGN §2.1.
+struct RenderStats {
+    std::string device;
+    std::vector<PassStats> passes;
+    std::vector<LeftOut> leftOut;
+    int atlasWidth = 0, atlasHeight = 0;
+    std::uint64_t atlasTexelsCovered = 0;
+    double atlasMmPerTexel = 0;  // median over covered texels
+    int lights = 0, lightSamples = 0, characters = 0, gaussians = 0;
+    std::uint64_t bytesGpu = 0;
+    std::uint64_t nonfinite = 0;  // over all covered texels and pixels of everything written
+    double loadMs = 0, frameMs = 0;
+};
+
+struct RenderResult {
+    Picture picture;                      // scene-linear radiance, alpha = coverage
+    std::map<std::string, Picture> aovs;  // by name
+    RenderStats stats;
+};
+
+RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const RenderSettings& settings);
+
+}  // namespace cutis
