@@ -12,11 +12,14 @@ struct Picture {
     std::vector<float> values;  // width · height · channels
 };
 
-// Scene-linear float32 EXR (.exr). Written atomically. Throws Error.
+// Scene-linear float32 EXR (.exr), channels named Y, YA, RGB or RGBA by their number. Written atomically.
+// Throws Error.
 void writeExr(const std::filesystem::path& path, const Picture& picture);
-// Exposed by 2^exposure, neutral tone curve, sRGB, 8 bits (.png). Written atomically. Throws Error.
+// Exposed by 2^exposure, neutral tone curve, sRGB, 8 bits (.png). Colours are taken as premultiplied and
+// shown over black. Written atomically. Throws Error.
 void writePng(const std::filesystem::path& path, const Picture& linear, double exposure);
-// Any format that OpenImageIO reads, as float RGBA or as many channels as the file has. Throws Error.
+// Any format that OpenImageIO reads, with as many channels as the file has; integers as stored, in [0, 1] (a
+// PNG stays sRGB). At most 16384 x 16384. Throws Error.
 Picture readPicture(const std::filesystem::path& path);
 
 }  // namespace cutis

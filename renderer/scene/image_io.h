@@ -1,0 +1,33 @@
+// Image files in memory and on disk, all through OpenImageIO.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/picture.h"
+#include "renderer/scene/scene.h"
+
+namespace cutis {
+
+inline constexpr int kMaxImageSize = 16384;                          // texels along either side
+inline constexpr std::size_t kMaxImageBytes = std::size_t(1) << 30;  // of one decoded image
+
+// A file's format by its first bytes as OpenImageIO names it ("png", "jpeg", "webp", …), empty when unknown.
+std::string imageFormat(std::span<const std::byte> file);
+
+// Decodes a file in memory: 8-bit files as rgba8, as stored; deeper ones as rgba16f, as stored (NaN becomes
+// 0, ±Inf the largest half). Grey and RGB are expanded, alpha is not premultiplied. `floatFile` tells whether
+// the file holds floating-point, hence linear, values. Throws Error naming `name`.
+Image decodeImage(std::span<const std::byte> file, const std::string& name, bool* floatFile = nullptr);
+
+// A PNG file of an rgba8 image; RGB without alpha when the image is opaque. Throws Error.
+std::vector<std::byte> encodePng(const Image& image);
+
+// A file's pixels as float, with all its channels; 8-bit and 16-bit values in [0, 1] as stored. `integers`
+// tells whether the file holds whole numbers. Throws Error; checks the limits before it decodes.
+Picture readPixels(const std::filesystem::path& path, int maxWidth, int maxHeight, bool* integers = nullptr);
+
+}  // namespace cutis
