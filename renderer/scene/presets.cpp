@@ -1,8 +1,6 @@
 #include "renderer/scene/presets.h"
 
-#include <algorithm>
 #include <cctype>
-#include <functional>
 #include <numbers>
 
 #include "renderer/core/error.h"
