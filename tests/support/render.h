@@ -1,0 +1,77 @@
+// From a scene made in code to the pictures that `cutis render` writes of it.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/picture.h"
+#include "renderer/scene/scene.h"
+
+namespace cutis::test {
+
+// A scene put together object by object.
+class SceneBuilder {
+  public:
+    SceneBuilder();
+
+    // Skin of the three-layer profile with albedo 1 and no specular, mix 0.5: what closed forms are stated
+    // for.
+    static SkinMaterial plainSkin();
+    int addSkin(const SkinMaterial& skin, const glm::dvec3& albedo = glm::dvec3(1));
+    int addMaterial(const Material& material);
+    // Opaque, dielectric, grey.
+    int addMatte();
+    // One node of its own at the top of the tree: its skin is a character of its own.
+    void addObject(const std::string& name, Primitive mesh, int material,
+                   const glm::dmat4& world = glm::dmat4(1));
+    // Looks from `eye` at `target`; the picture shows `width` metres across. Depths from 1/100 to 4 times the
+    // distance.
+    void setOrthographicCamera(const glm::dvec3& eye, const glm::dvec3& target, double width,
+                               const glm::dvec3& up = glm::dvec3(0, 1, 0));
+    const Scene& scene() const { return scene_; }
+
+  private:
+    Scene scene_;
+};
+
+// Lights as a rig file has them (DESIGN §2.3).
+nlohmann::json directionalLight(const std::string& name, const glm::dvec3& direction, double lux);
+nlohmann::json pointLight(const std::string& name, const glm::dvec3& position, double candela);
+nlohmann::json spotLight(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction,
+                         double candela, double innerAngle, double outerAngle);
+nlohmann::json rectLight(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction,
+                         double radiance, double width, double height, int samples);
+
+struct RenderJob {
+    Scene scene = {};
+    std::vector<nlohmann::json> lights = {};
+    std::optional<Picture> environment = {};  // lat-long, three channels
+    double environmentRotation = 0;           // degrees
+    int width = 128, height = 128;
+    int irradianceSize = 0;  // 0: the program's choice
+    std::vector<std::string> aovs = {};
+};
+
+struct Rendered {
+    Picture picture;
+    std::map<std::string, Picture> aovs;
+    nlohmann::json stats;
+    // An AOV that the job asked for.
+    const Picture& aov(const std::string& name) const { return aovs.at(name); }
+};
+
+// Writes scene, rig and environment into a folder of their own and runs `cutis render` with validation layers
+// on. Throws std::runtime_error, with what the program said, when its status is not 0, when a validation
+// layer spoke, when a picture is missing or has the wrong size, or when it counted values that are not
+// finite.
+Rendered render(const RenderJob& job);
+
+// The same for a scene file that is there already; `options` are further arguments.
+Rendered renderFile(const std::filesystem::path& scene, const std::vector<std::string>& options, int width,
+                    int height, const std::vector<std::string>& aovs);
+
+}  // namespace cutis::test
