@@ -169,7 +169,7 @@ Primitive makeBowl(double radius, double thickness) {
             const glm::dvec3 outwards(std::sin(fromBottom) * std::cos(phi),
                                       std::sin(fromBottom) * std::sin(phi), -std::cos(fromBottom));
             return SurfacePoint{outwards * wallRadius, outwards * sign,
-                                glm::dvec2(std::cos(phi), -sign * std::sin(phi)) * (fromBottom * wallRadius)};
+                                glm::dvec2(std::cos(phi), sign * std::sin(phi)) * (fromBottom * wallRadius)};
         };
     };
     ChartedMesh mesh(0.1 * radius);
