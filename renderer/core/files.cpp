@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <mutex>
+#include <set>
 
 #include "renderer/core/error.h"
 
@@ -30,6 +32,37 @@ fs::path temporaryBeside(const fs::path& path) {
     // The extension stays last: image writers choose their format by it.
     return path.parent_path() / ("." + path.stem().string() + tag + path.extension().string());
 }
+
+// Temporary files of the writes under way. Never destroyed: a signal may come during exit.
+struct UnfinishedWrites {
+    std::mutex mutex;
+    std::set<fs::path> files;
+};
+UnfinishedWrites& unfinishedWrites() {
+    static UnfinishedWrites& writes = *new UnfinishedWrites;
+    return writes;
+}
+
+// A file name that is known while it lives; the file is gone afterwards, unless it was renamed.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(fs::path file) : file_(std::move(file)) {
+        const std::lock_guard lock(unfinishedWrites().mutex);
+        unfinishedWrites().files.insert(file_);
+    }
+    ~TemporaryFile() {
+        std::error_code ignored;
+        fs::remove(file_, ignored);
+        const std::lock_guard lock(unfinishedWrites().mutex);
+        unfinishedWrites().files.erase(file_);
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    const fs::path& path() const { return file_; }
+
+  private:
+    fs::path file_;
+};
 
 }  // namespace
 
@@ -59,15 +92,16 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
     std::error_code error;
     if (!fs::is_directory(folder, error)) throw Error("cannot write file", "no such folder", folder.string());
     if (fs::is_directory(path, error)) throw Error("cannot write file", "it is a folder", path.string());
-    const fs::path temporary = temporaryBeside(path);
-    try {
-        write(temporary);
-        fs::rename(temporary, path, error);
-        if (error) throw Error("cannot write file", error.message(), path.string());
-    } catch (...) {
-        fs::remove(temporary, error);
-        throw;
-    }
+    const TemporaryFile temporary(temporaryBeside(path));
+    write(temporary.path());
+    fs::rename(temporary.path(), path, error);
+    if (error) throw Error("cannot write file", error.message(), path.string());
+}
+
+void discardTemporaryFiles() {
+    unfinishedWrites().mutex.lock();
+    std::error_code ignored;
+    for (const fs::path& file : unfinishedWrites().files) fs::remove(file, ignored);
 }
 
 void writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {

@@ -21,6 +21,10 @@ void writeFileAtomically(const std::filesystem::path& path,
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void writeFileAtomically(const std::filesystem::path& path, const std::string& text);
 
+// Removes what writes under way have written so far. Only for a program that ends at once (a signal): no further
+// write starts or ends afterwards.
+void discardTemporaryFiles();
+
 // $CUTIS_CACHE_DIR, else $XDG_CACHE_HOME/cutis, else ~/.cache/cutis; created on demand. Empty when none can be made:
 // caching is then off, never an error.
 std::filesystem::path cacheFolder();

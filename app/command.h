@@ -1,0 +1,37 @@
+// What the program can do: one row a command.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "app/options.h"
+
+namespace cutis::app {
+
+struct Command {
+    std::string_view group;     // "rig" of `cutis rig show`; empty for a command of one word
+    std::string_view name;      // "render"; "show" of `cutis rig show`
+    std::string_view operands;  // as help shows them: "SCENE"
+    std::size_t minOperands, maxOperands;
+    CommandSet options;                  // which rows of the option table it takes
+    bool needsOutput;                    // -o must be given
+    std::string_view summary;            // one line
+    std::string_view details;            // paragraphs for its own help, each a line
+    int (*run)(const Request& request);  // returns the exit status
+};
+
+// "rig show"
+std::string fullName(const Command& command);
+
+// In the order in which `cutis --help` prints them.
+std::span<const Command> commands();
+
+int runRender(const Request& request);
+int runRigList(const Request& request);
+int runRigShow(const Request& request);
+int runRigCheck(const Request& request);
+int runRigExport(const Request& request);
+int runDevices(const Request& request);
+
+}  // namespace cutis::app

@@ -1,0 +1,125 @@
+#include "app/inputs.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "renderer/core/error.h"
+#include "renderer/core/suggest.h"
+#include "renderer/scene/camera.h"
+#include "renderer/scene/environment.h"
+#include "renderer/scene/gltf.h"
+#include "renderer/scene/presets.h"
+#include "renderer/scene/rig.h"
+
+namespace cutis::app {
+namespace fs = std::filesystem;
+namespace {
+
+const char* const kDefaultScene = "default";
+const char* const kDefaultPreset = "three-point";
+
+fs::path dataFolder() {
+    const char* folder = std::getenv("CUTIS_DATA_DIR");
+    return folder && *folder ? folder : CUTIS_DATA_DIR;
+}
+
+NamedRig chooseRig(const Request& request, const Scene& scene, const fs::path& file) {
+    if (request.rig == "none") return {};
+    if (request.rig == "scene") {
+        if (scene.lights.empty())
+            throw Error("cannot use --rig scene", "the scene has no lights", file.string());
+        return {rigFromScene(scene), {}};
+    }
+    if (request.rig) return loadNamedRig(*request.rig);
+    if (!scene.lights.empty()) return {rigFromScene(scene), {}};
+    fs::path beside = file;
+    beside.replace_extension(".rig.json");
+    std::error_code error;
+    if (fs::is_regular_file(beside, error)) return {loadRig(beside), beside};
+    return {presetRig(kDefaultPreset), {}};
+}
+
+// Keeps the lights of those names, switched on.
+void selectLights(Rig& rig, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    std::vector<std::string> all;
+    std::string list;
+    for (const Light& light : rig.lights) {
+        all.push_back(light.name);
+        list += (list.empty() ? "" : ", ") + light.name;
+    }
+    for (const std::string& name : names) {
+        if (std::find(all.begin(), all.end(), name) == all.end()) {
+            const std::string there = list.empty() ? "the rig has no lights" : "the rig has " + list;
+            throw Error("no light '" + name + "'" + didYouMean(name, all), there, "--light");
+        }
+    }
+    std::erase_if(rig.lights, [&](const Light& light) {
+        return std::find(names.begin(), names.end(), light.name) == names.end();
+    });
+    for (Light& light : rig.lights) light.enabled = true;
+}
+
+void chooseEnvironment(const Request& request, Inputs& inputs) {
+    EnvironmentSettings& settings = inputs.rig.environment;
+    if (request.environment == "none") {
+        settings = {};
+        return;
+    }
+    if (request.environment) {
+        settings.file = *request.environment;
+        settings.enabled = true;
+    }
+    settings.intensity = request.environmentIntensity.value_or(settings.intensity);
+    settings.rotation = request.environmentRotation.value_or(settings.rotation);
+    inputs.environmentFile =
+        request.environment ? fs::path(settings.file) : environmentFileOf(inputs.rig, inputs.rigFile);
+    if (!inputs.environmentFile.empty()) {
+        inputs.environment = loadEnvironment(inputs.environmentFile);
+    } else if (request.environmentIntensity || request.environmentRotation) {
+        warn("--env-intensity and --env-rotation have no effect: there is no environment");
+    }
+}
+
+}  // namespace
+
+fs::path sceneFile(const std::string& operand) {
+    if (operand != kDefaultScene) return operand;
+    const fs::path file = dataFolder() / "default" / "default.gltf";
+    std::error_code error;
+    if (!fs::is_regular_file(file, error))
+        throw Error("no default scene", "tools/demo installs it", file.string());
+    return file;
+}
+
+NamedRig loadNamedRig(const std::string& name) {
+    if (isPreset(name)) return {presetRig(name), {}};
+    const fs::path file = name;
+    // A word that is no path is a mistyped preset: presetRig lists them.
+    std::error_code error;
+    if (!file.has_extension() && !file.has_parent_path() && !fs::exists(file, error))
+        return {presetRig(name), {}};
+    return {loadRig(file), file};
+}
+
+fs::path environmentFileOf(const Rig& rig, const fs::path& rigFile) {
+    if (!rig.environment.enabled || rig.environment.file.empty()) return {};
+    return rigFile.parent_path() / rig.environment.file;  // an absolute name stays what it is
+}
+
+Inputs loadInputs(const Request& request) {
+    Inputs inputs;
+    const fs::path file = sceneFile(request.operands.at(0));
+    inputs.scene = loadGltf(file, {.skin = request.skin});
+    NamedRig named = chooseRig(request, inputs.scene, file);
+    inputs.rig = std::move(named.rig);
+    inputs.rigFile = std::move(named.file);
+    selectLights(inputs.rig, request.lights);
+    resolvePlacements(inputs.rig, inputs.scene);
+    chooseEnvironment(request, inputs);
+    inputs.camera =
+        cameraFor(inputs.scene, request.camera, double(request.settings.width) / request.settings.height);
+    return inputs;
+}
+
+}  // namespace cutis::app

@@ -1,0 +1,141 @@
+// The program `cutis`: finds the command, runs it, and turns whatever goes wrong into one line and an exit
+// status.
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "app/command_line.h"
+#include "app/signals.h"
+#include "app/usage_error.h"
+#include "renderer/core/error.h"
+#include "renderer/core/suggest.h"
+
+namespace cutis::app {
+
+std::span<const Command> commands() {
+    static constexpr Command kCommands[] = {
+        {"", "render", "SCENE", 1, 1, kRender, true, "One picture of a glTF scene",
+         "SCENE is a .gltf or .glb file, or 'default' for the scene of real people that set-up installs.",
+         runRender},
+        {"rig", "list", "", 0, 0, kNoCommand, false, "The built-in lighting presets", "", runRigList},
+        {"rig", "show", "RIG", 1, 1, kNoCommand, false,
+         "A rig file or preset as a rig file, on standard output",
+         "Values that are at their defaults are left out.", runRigShow},
+        {"rig", "check", "RIG", 1, 1, kRigCheck, false,
+         "Says whether a rig file is right and its environment is there",
+         "With --scene also whether the subjects of its lights are there.", runRigCheck},
+        {"rig", "export", "RIG|SCENE", 1, 1, kRigExport, true, "Rigs to glTF lights, and back",
+         "A rig file or preset becomes the lights of a .glb file, placed by the heads of --scene where the "
+         "rig asks "
+         "for that; the lights of a glTF scene become a rig file. glTF has no area lights: a rect light "
+         "becomes a "
+         "spot of equal candela on its axis, and a radius is lost.",
+         runRigExport},
+        {"", "devices", "", 0, 0, kNoCommand, false, "The GPUs of this machine, and which one cutis takes",
+         "", runDevices},
+    };
+    return kCommands;
+}
+
+namespace {
+
+bool isHelp(const std::string& argument) {
+    return argument == "--help" || argument == "-h";
+}
+
+std::string_view firstWord(const Command& command) {
+    return command.group.empty() ? command.name : command.group;
+}
+
+// The rows that these words name: one command, or all of a group such as `rig`. Throws UsageError when there
+// is none.
+std::vector<const Command*> commandsNamed(const std::vector<std::string>& words) {
+    std::vector<const Command*> found;
+    std::vector<std::string> names = {"help"};
+    for (const Command& command : commands()) {
+        names.emplace_back(firstWord(command));
+        if (firstWord(command) == words[0]) found.push_back(&command);
+    }
+    if (found.empty()) throw UsageError("unknown command '" + words[0] + "'" + didYouMean(words[0], names));
+    if (found[0]->group.empty() || words.size() < 2 || words[1].starts_with('-')) return found;
+    names.clear();
+    for (const Command* command : found) {
+        if (command->name == words[1]) return {command};
+        names.emplace_back(command->name);
+    }
+    throw UsageError("unknown command '" + words[0] + ' ' + words[1] + "'" + didYouMean(words[1], names));
+}
+
+int showHelp(const std::vector<std::string>& words) {
+    std::string text;
+    if (words.empty() || isHelp(words[0])) {
+        text = programHelp();
+    } else {
+        for (const Command* command : commandsNamed(words))
+            text += (text.empty() ? "" : "\n\n") + commandHelp(*command);
+    }
+    std::fputs(text.c_str(), stdout);
+    return 0;
+}
+
+int runProgram(std::vector<std::string> arguments) {
+    if (arguments.empty()) throw UsageError("no command");
+    if (isHelp(arguments[0]) || arguments[0] == "help") {
+        arguments.erase(arguments.begin());
+        return showHelp(arguments);
+    }
+    if (arguments[0] == "--version") {
+        std::puts("cutis " CUTIS_VERSION);
+        return 0;
+    }
+    if (arguments[0].starts_with('-')) throw UsageError("unknown option " + arguments[0]);
+    const std::vector<const Command*> found = commandsNamed(arguments);
+    for (const std::string& argument : arguments) {
+        if (argument == "--") break;
+        if (isHelp(argument)) return showHelp(arguments);
+    }
+    if (found.size() > 1) {
+        std::string list;
+        for (const Command* command : found) list += (list.empty() ? "" : ", ") + std::string(command->name);
+        throw UsageError("cutis " + arguments[0] + " needs one of " + list);
+    }
+    const Command& command = *found[0];
+    arguments.erase(arguments.begin(), arguments.begin() + (command.group.empty() ? 1 : 2));
+    return command.run(parseArguments(command, arguments));
+}
+
+// Prints errors as the one line that they are.
+int reportErrors(const std::vector<std::string>& arguments) {
+    try {
+        const int status = runProgram(arguments);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout))
+            throw Error("cannot write", std::strerror(errno), "standard output");
+        return status;
+    } catch (const UsageError& error) {
+        const Error line("usage", error.what(), "see cutis --help");
+        std::fprintf(stderr, "cutis: error: %s\n", line.what());
+        return 2;
+    } catch (const Error& error) {
+        std::fprintf(stderr, "cutis: error: %s\n", error.what());
+    } catch (const std::bad_alloc&) {
+        std::fputs("cutis: error: out of memory: the scene or the picture is too large for this machine\n",
+                   stderr);
+    } catch (const std::exception& error) {
+        const Error line("internal", error.what());
+        std::fprintf(stderr, "cutis: error: %s\n", line.what());
+    }
+    return 1;
+}
+
+}  // namespace
+}  // namespace cutis::app
+
+int main(int argc, char** argv) {
+    cutis::app::endCleanlyOnSignals();
+    return cutis::app::reportErrors({argv + 1, argv + argc});
+}

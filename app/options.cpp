@@ -1,0 +1,240 @@
+#include "app/options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "app/usage_error.h"
+#include "renderer/core/suggest.h"
+#include "renderer/scene/presets.h"
+
+namespace cutis::app {
+namespace {
+
+constexpr int kMaxSide = 16384;                  // pixels
+constexpr std::int64_t kMaxPixels = 1 << 26;     // 1 GiB as float RGBA
+constexpr int kMinAtlas = 8, kMaxAtlas = 16384;  // texels
+constexpr int kMaxGaussians = 32;
+constexpr double kMaxExposure = 64, kMaxIntensity = 1e12, kMaxTurn = 36000;
+
+[[noreturn]] void refuse(const std::string& text, const std::string& must) {
+    throw UsageError("is '" + text + "', it must be " + must);
+}
+
+std::string plain(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+double parseNumber(const std::string& text, double min, double max) {
+    const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
+    const char* last = text.data() + text.size();
+    double value = 0;
+    const auto [end, error] = std::from_chars(first, last, value);
+    const bool number = error == std::errc() && end == last && std::isfinite(value);
+    if (!number || value < min || value > max)
+        refuse(text, "a number from " + plain(min) + " to " + plain(max));
+    return value;
+}
+
+std::int64_t parseInteger(const std::string& text, std::int64_t min, std::int64_t max) {
+    std::int64_t value = 0;
+    const char* last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, value);
+    if (error != std::errc() || end != last || value < min || value > max)
+        refuse(text, "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+    return value;
+}
+
+std::string parseText(const std::string& text) {
+    if (text.empty()) throw UsageError("is empty");
+    return text;
+}
+
+void parseSize(Request& request, const std::string& text) {
+    const std::string must = "WIDTHxHEIGHT, each from 1 to " + std::to_string(kMaxSide) + ", as in 1280x720";
+    const std::size_t cross = text.find('x');
+    if (cross == std::string::npos) refuse(text, must);
+    try {
+        request.settings.width = static_cast<int>(parseInteger(text.substr(0, cross), 1, kMaxSide));
+        request.settings.height = static_cast<int>(parseInteger(text.substr(cross + 1), 1, kMaxSide));
+    } catch (const UsageError&) {
+        refuse(text, must);
+    }
+    if (std::int64_t(request.settings.width) * request.settings.height > kMaxPixels)
+        refuse(text, "at most " + std::to_string(kMaxPixels) + " pixels");
+}
+
+void parseAovs(Request& request, const std::string& text) {
+    const std::vector<std::string> known(std::begin(kAovNames), std::end(kAovNames));
+    std::vector<std::string>& aovs = request.settings.aovs;
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', start), text.size());
+        const std::string name = text.substr(start, comma - start);
+        start = comma + 1;
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            std::string list;
+            for (const std::string& aov : known) list += (list.empty() ? "" : ", ") + aov;
+            throw UsageError("has no '" + name + "'" + didYouMean(name, known) + ": there are " + list);
+        }
+        if (std::find(aovs.begin(), aovs.end(), name) != aovs.end())
+            throw UsageError("names '" + name + "' twice");
+        aovs.push_back(name);
+    }
+}
+
+bool endsIn(const std::filesystem::path& path, const std::string& extension) {
+    std::string own = path.extension().string();
+    std::transform(own.begin(), own.end(), own.begin(), [](unsigned char c) { return std::tolower(c); });
+    return own == extension;
+}
+
+// Adds an output whose extension is one of those; the same file twice is a mistake.
+void addOutput(Request& request, const std::string& text, const std::vector<std::string>& extensions) {
+    const std::filesystem::path path = parseText(text);
+    const bool known = std::any_of(extensions.begin(), extensions.end(),
+                                   [&](const std::string& extension) { return endsIn(path, extension); });
+    if (!known) {
+        std::string list;
+        for (const std::string& extension : extensions) list += (list.empty() ? "" : " or ") + extension;
+        refuse(text, "a file name ending in " + list);
+    }
+    for (const std::filesystem::path& other : request.outputs)
+        if (other.lexically_normal() == path.lexically_normal())
+            throw UsageError("names '" + text + "' twice");
+    request.outputs.push_back(path);
+}
+
+std::string aovList() {
+    std::string list;
+    for (const char* name : kAovNames) list += (list.empty() ? "" : ", ") + std::string(name);
+    return list;
+}
+
+std::vector<Option> makeOptions() {
+    const char* const output = "Output";
+    const char* const light = "Light";
+    const char* const view = "View";
+    const char* const quality = "Skin and quality";
+    return {
+        {"-o,--output", "FILE", kRender, output,
+         "The picture: .exr is scene-linear float radiance with coverage as alpha, .png is exposed, tone "
+         "mapped and "
+         "sRGB. Repeat it for both in one run",
+         true,
+         [](Request& r, const std::string& text) {
+             addOutput(r, text, {".exr", ".png"});
+         }},
+        {"-o,--output", "FILE", kRigExport, output,
+         "The result: .glb holds the lights as KHR_lights_punctual, .json is a rig file", false,
+         [](Request& r, const std::string& text) {
+             addOutput(r, text, {".glb", ".json"});
+         }},
+        {"--aov", "LIST", kRender, output,
+         "Also write OUT.NAME.exr beside the first output for each name of this comma-separated list: " +
+             aovList(),
+         false, parseAovs},
+        {"--stats", "FILE", kRender, output,
+         "Write what ran, what was left out and why, times and bytes as JSON", false,
+         [](Request& r, const std::string& text) { r.stats = parseText(text); }},
+        {"--exposure", "EV", kRender, output,
+         "Added to the rig's exposure: each step doubles. For .png only (default: 0)", false,
+         [](Request& r, const std::string& text) {
+             r.exposure = parseNumber(text, -kMaxExposure, kMaxExposure);
+         }},
+        {"--size", "WxH", kRender, output, "Pixels of the picture (default: 1280x720)", false, parseSize},
+
+        {"--rig", "RIG", kRender, light,
+         "The lights: a rig file, a preset (see cutis rig list), 'scene' for the scene's own, or 'none'. "
+         "Default: the "
+         "scene's own lights if it has any, else NAME.rig.json beside the scene NAME.gltf, else three-point",
+         false, [](Request& r, const std::string& text) { r.rig = parseText(text); }},
+        {"--light", "NAME", kRender, light,
+         "Only this light of the rig, switched on even where the rig has it off. Repeat it for several", true,
+         [](Request& r, const std::string& text) { r.lights.push_back(parseText(text)); }},
+        {"--env", "FILE", kRender, light,
+         "A lat-long environment (.exr, .hdr, …) in place of the rig's, or 'none'", false,
+         [](Request& r, const std::string& text) { r.environment = parseText(text); }},
+        {"--env-intensity", "X", kRender, light,
+         "Factor on the environment's radiance, in place of the rig's", false,
+         [](Request& r, const std::string& text) {
+             r.environmentIntensity = parseNumber(text, 0, kMaxIntensity);
+         }},
+        {"--env-rotation", "DEG", kRender, light,
+         "Turn of the environment about +Y in degrees, counter-clockwise seen from above, in place of the "
+         "rig's",
+         false,
+         [](Request& r, const std::string& text) {
+             r.environmentRotation = parseNumber(text, -kMaxTurn, kMaxTurn);
+         }},
+
+        {"--camera", "CAMERA", kRender, view,
+         "A camera's name or index, 'auto', or 'auto:AZ,EL': framed on the heads from that azimuth and "
+         "elevation in "
+         "degrees (default: the first camera of the scene, else auto)",
+         false, [](Request& r, const std::string& text) { r.camera = parseText(text); }},
+
+        {"--skin", "GLOB", kRender, quality,
+         "Materials whose names match are skin, or 'none' (default: those marked in the file, else those "
+         "named like "
+         "skin, head, face or body)",
+         false, [](Request& r, const std::string& text) { r.skin = parseText(text); }},
+        {"--irradiance-size", "N", kRender, quality,
+         "The irradiance atlas is exactly N×N texels (default: chosen from the picture)", false,
+         [](Request& r, const std::string& text) {
+             r.settings.irradianceSize = static_cast<int>(parseInteger(text, kMinAtlas, kMaxAtlas));
+         }},
+        {"--gaussians", "K", kRender, quality,
+         "Reduce each profile to K Gaussians, faster and less exact (default: all)", false,
+         [](Request& r, const std::string& text) {
+             r.settings.gaussians = static_cast<int>(parseInteger(text, 1, kMaxGaussians));
+         }},
+        {"--merge", "NAME", kRender, quality,
+         "How the thicknesses that several lights see become one: min, the smallest (default: min)", false,
+         [](Request& r, const std::string& text) {
+             if (text != "min") refuse(text, "min");
+             r.settings.merge = Merge::min;
+         }},
+        {"--seed", "N", kRender, quality, "Starts the random numbers of whatever uses any (default: 0)",
+         false,
+         [](Request& r, const std::string& text) {
+             r.settings.seed =
+                 static_cast<std::uint32_t>(parseInteger(text, 0, std::numeric_limits<std::uint32_t>::max()));
+         }},
+        {"--no-prune", "", kRender, quality,
+         "Run also what the scene does not need, on neutral inputs, to measure what leaving it out saves",
+         false, [](Request& r, const std::string&) { r.settings.prune = false; }},
+
+        {"--device", "DEVICE", kRender, "Machine",
+         "The GPU: part of its name, its index in cutis devices, or 'cpu' (default: $CUTIS_DEVICE, else the "
+         "best)",
+         false, [](Request& r, const std::string& text) { r.device = parseText(text); }},
+        {"--scene", "SCENE", kRigCheck | kRigExport, "Placement",
+         "The glTF scene whose heads the rig's placed lights aim at", false,
+         [](Request& r, const std::string& text) { r.scene = parseText(text); }},
+    };
+}
+
+}  // namespace
+
+std::string_view Option::longName() const {
+    return names.substr(names.rfind(',') + 1);  // npos + 1 is 0
+}
+
+std::span<const Option> options() {
+    static const std::vector<Option> all = makeOptions();
+    return all;
+}
+
+void checkConflicts(const Request& request) {
+    const bool dark = request.environment == "none";
+    if (dark && request.environmentIntensity)
+        throw UsageError("--env none and --env-intensity exclude each other");
+    if (dark && request.environmentRotation)
+        throw UsageError("--env none and --env-rotation exclude each other");
+    if (request.rig == "none" && !request.lights.empty())
+        throw UsageError("--rig none and --light exclude each other");
+}
+
+}  // namespace cutis::app

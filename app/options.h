@@ -1,0 +1,54 @@
+// The one table of options, from which the command line, --help and docs/command-line.md come.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/frame/renderer.h"
+
+namespace cutis::app {
+
+// What a command line asks for, checked as far as it can be without opening a file.
+struct Request {
+    std::vector<std::string> operands;  // SCENE, RIG: what is not an option
+
+    std::vector<std::filesystem::path> outputs;
+    std::filesystem::path stats;             // empty: none
+    std::optional<std::string> rig;          // file, preset, "scene" or "none"; unset: see loadInputs
+    std::vector<std::string> lights;         // names; empty: all
+    std::optional<std::string> environment;  // file or "none"; unset: the rig's
+    std::optional<double> environmentIntensity, environmentRotation;  // unset: the rig's
+    std::string camera;                                               // as cameraFor takes it
+    std::optional<std::string> skin;                                  // as GltfOptions takes it
+    std::filesystem::path scene;                                      // for commands whose operand is a rig
+    double exposure = 0;                                              // EV, added to the rig's
+    std::string device;                                               // as gpu::DeviceOptions takes it
+    RenderSettings settings;
+};
+
+// Commands that take an option, as a set of bits.
+enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4 };
+
+struct Option {
+    std::string_view names;    // "-o,--output", the long one last
+    std::string_view metavar;  // empty: a flag
+    unsigned commands;         // CommandSet
+    std::string_view group;    // heading in --help
+    std::string help;
+    bool repeatable;
+    // Puts the text into the request, or throws UsageError saying what it must be.
+    void (*parse)(Request& request, const std::string& text);
+
+    std::string_view longName() const;
+};
+
+std::span<const Option> options();
+
+// What no single option shows: options that exclude each other. Throws UsageError.
+void checkConflicts(const Request& request);
+
+}  // namespace cutis::app
