@@ -12,7 +12,7 @@ namespace {
 // The device that cutis would take; none where it would find none that suits.
 std::optional<std::uint32_t> chosenDevice() {
     try {
-        return gpu::Device({}).info().index;
+        return gpu::Device(gpu::DeviceOptions{}).info().index;
     } catch (const Error& error) {
         warn(error.what());
         return {};

@@ -82,7 +82,9 @@ int runRender(const Request& request) {
     const Clock::time_point start = Clock::now();
     // Opening the device and reading files have nothing to do with each other.
     std::future<Inputs> loading = std::async(std::launch::async, [&] { return loadInputs(request); });
-    gpu::Device device({.select = request.device});
+    gpu::DeviceOptions deviceOptions;
+    deviceOptions.select = request.device;
+    gpu::Device device(deviceOptions);
     const Inputs inputs = loading.get();
     const double loadMs = millisecondsSince(start);
     checkInputsSurvive(inputs, outputs);
