@@ -92,8 +92,8 @@ class CharacterFinder {
     }
 
   private:
-    // Appends the clusters of the subtree; returns whether there were any. updateWorldTransforms has refused trees too
-    // deep to recurse into.
+    // Appends the clusters of the subtree; returns whether there were any. updateWorldTransforms has refused
+    // trees too deep to recurse into.
     bool collect(int node) {
         if (hasSkin(scene_, node)) {
             Cluster cluster;

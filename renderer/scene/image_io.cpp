@@ -49,10 +49,11 @@ ChannelMap mapChannels(int channels) {
 }
 
 template <typename T>
-std::vector<T> readAll(OIIO::ImageInput& input, OIIO::TypeDesc type, const std::string& name) {
+std::vector<T> readChannels(OIIO::ImageInput& input, int channels, OIIO::TypeDesc type,
+                            const std::string& name) {
     const OIIO::ImageSpec& spec = input.spec();
-    std::vector<T> values(std::size_t(spec.width) * spec.height * spec.nchannels);
-    if (!input.read_image(0, 0, 0, spec.nchannels, type, values.data())) refuse(name, input.geterror());
+    std::vector<T> values(std::size_t(spec.width) * spec.height * channels);
+    if (!input.read_image(0, 0, 0, channels, type, values.data())) refuse(name, input.geterror());
     return values;
 }
 
@@ -87,17 +88,22 @@ void fillRgba16f(Image& image, const std::vector<float>& values, int channels) {
     }
 }
 
-std::unique_ptr<OIIO::ImageInput> openInput(const std::string& file, const OIIO::ImageSpec& config,
-                                            OIIO::Filesystem::IOProxy* proxy, const std::string& name) {
-    auto input = OIIO::ImageInput::open(file, &config, proxy);
-    if (!input) refuse(name, OIIO::geterror());
-    return input;
-}
-
 OIIO::ImageSpec straightAlpha() {
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
     return config;
+}
+
+// A reader for a file in memory. ImageInput::open would look for the file on disk.
+std::unique_ptr<OIIO::ImageInput> openMemory(const std::string& format, OIIO::Filesystem::IOProxy& proxy,
+                                             const std::string& name) {
+    auto input = OIIO::ImageInput::create(format);
+    OIIO::ImageSpec spec;
+    if (!input || !input->supports("ioproxy"))
+        refuse(name, "OpenImageIO cannot read " + format + " from memory");
+    input->set_ioproxy(&proxy);
+    if (!input->open("image." + format, spec, straightAlpha())) refuse(name, input->geterror());
+    return input;
 }
 
 }  // namespace
@@ -121,22 +127,22 @@ Image decodeImage(std::span<const std::byte> file, const std::string& name, bool
     const std::string format = imageFormat(file);
     if (format.empty()) refuse(name, "not an image of a known format");
     OIIO::Filesystem::IOMemReader reader(const_cast<std::byte*>(file.data()), file.size());
-    // Named by its content: the extension of a file or the MIME type of a buffer may be wrong.
-    const std::string extension = format == "openexr" ? "exr" : format == "jpeg" ? "jpg" : format;
-    const auto input = openInput("image." + extension, straightAlpha(), &reader, name);
+    // The reader is chosen by content: the extension of a file or the MIME type of a buffer may be wrong.
+    const auto input = openMemory(format, reader, name);
     const OIIO::ImageSpec spec = input->spec();
     const bool eightBit = spec.format == OIIO::TypeDesc::UINT8;
     checkSize(spec, kMaxImageSize, kMaxImageSize, eightBit ? 4 : 8, name);
 
+    const int channels = std::min(spec.nchannels, 4);
     Image image;
     image.name = name;
     image.width = spec.width;
     image.height = spec.height;
     image.format = eightBit ? TexelFormat::rgba8 : TexelFormat::rgba16f;
     if (eightBit) {
-        fillRgba8(image, readAll<std::uint8_t>(*input, OIIO::TypeDesc::UINT8, name), spec.nchannels);
+        fillRgba8(image, readChannels<std::uint8_t>(*input, channels, OIIO::TypeDesc::UINT8, name), channels);
     } else {
-        fillRgba16f(image, readAll<float>(*input, OIIO::TypeDesc::FLOAT, name), spec.nchannels);
+        fillRgba16f(image, readChannels<float>(*input, channels, OIIO::TypeDesc::FLOAT, name), channels);
     }
     if (floatFile) *floatFile = spec.format.is_floating_point();
     return image;
@@ -166,7 +172,9 @@ Picture readPixels(const std::filesystem::path& path, int maxWidth, int maxHeigh
     std::error_code error;
     if (!std::filesystem::exists(path, error)) refuse(name, "no such file");
     if (!std::filesystem::is_regular_file(path, error)) refuse(name, "not a regular file");
-    const auto input = openInput(name, straightAlpha(), nullptr, name);
+    const OIIO::ImageSpec config = straightAlpha();
+    const auto input = OIIO::ImageInput::open(name, &config);
+    if (!input) refuse(name, OIIO::geterror());
     const OIIO::ImageSpec spec = input->spec();
     checkSize(spec, maxWidth, maxHeight, 1, name);
     const std::size_t bytes = std::size_t(spec.width) * spec.height * spec.nchannels * sizeof(float);
@@ -175,7 +183,7 @@ Picture readPixels(const std::filesystem::path& path, int maxWidth, int maxHeigh
     picture.width = spec.width;
     picture.height = spec.height;
     picture.channels = spec.nchannels;
-    picture.values = readAll<float>(*input, OIIO::TypeDesc::FLOAT, name);
+    picture.values = readChannels<float>(*input, spec.nchannels, OIIO::TypeDesc::FLOAT, name);
     if (integers) *integers = !spec.format.is_floating_point();
     return picture;
 }

@@ -103,6 +103,14 @@ std::size_t JsonView::index(std::size_t limit, const char* ofWhat) const {
     return static_cast<std::size_t>(value);
 }
 
+std::size_t JsonView::natural(const char* key, std::size_t fallback) const {
+    const auto found = find(key);
+    if (!found) return fallback;
+    const std::int64_t value = found->integer();
+    if (value < 0) found->fail("must not be negative");
+    return static_cast<std::size_t>(value);
+}
+
 bool JsonView::boolean(const char* key, bool fallback) const {
     const auto found = find(key);
     return found ? found->boolean() : fallback;

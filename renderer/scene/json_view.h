@@ -50,7 +50,8 @@ class JsonView {
     // A whole number in [0, limit).
     std::size_t index(std::size_t limit, const char* ofWhat) const;
 
-    // The member of that name, or the fallback where there is none.
+    // The member of that name, or the fallback where there is none. `natural`: a whole number, not negative.
+    std::size_t natural(const char* key, std::size_t fallback) const;
     bool boolean(const char* key, bool fallback) const;
     double number(const char* key, double fallback) const;
     std::string string(const char* key, const std::string& fallback = {}) const;

@@ -27,7 +27,8 @@ struct Sampler {
     bool operator==(const Sampler&) const = default;
 };
 
-enum class TexelFormat { rgba8, rgba16f };  // rgba8: as stored in the file (sRGB or linear, see Texture::srgb)
+// rgba8: as stored in the file (sRGB or linear, see Texture::srgb); rgba16f: linear, never with Texture::srgb.
+enum class TexelFormat { rgba8, rgba16f };
 
 // A decoded image. Row 0 is the top row, as glTF's texture coordinates have it.
 struct Image {

@@ -1,0 +1,28 @@
+// Accessors of a glTF file as plain arrays: strides, sparse values, normalized integers and bounds are dealt
+// with here.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "renderer/scene/gltf_document.h"
+
+namespace cutis::gltf {
+
+// Each takes a reference (a JSON value that is an index into `accessors`), checks that the accessor is of the
+// fitting type and lies within its buffer, and fails with the reference's path otherwise. Integers become
+// floats: [0, 1] or
+// [-1, 1] where the accessor is normalized, as they are where it is not.
+std::vector<float> readScalars(Document& document, const JsonView& reference);
+std::vector<glm::vec2> readVec2(Document& document, const JsonView& reference);
+std::vector<glm::vec3> readVec3(Document& document, const JsonView& reference);
+std::vector<glm::vec4> readVec4(Document& document, const JsonView& reference);
+std::vector<glm::mat4> readMat4(Document& document, const JsonView& reference);
+// RGB gets alpha 1.
+std::vector<glm::vec4> readColors(Document& document, const JsonView& reference);
+// Unsigned integers, not normalized.
+std::vector<std::uint32_t> readIndices(Document& document, const JsonView& reference);
+std::vector<glm::uvec4> readJoints(Document& document, const JsonView& reference);
+
+}  // namespace cutis::gltf

@@ -1,0 +1,68 @@
+// A glTF file opened: its JSON and its bytes, nothing interpreted yet. Used by the loader's own files only.
+//
+// The JSON is read with nlohmann::json rather than through tinygltf: Debian 12's version (2.7.0) reads past
+// the end of a truncated .glb, recurses without bound, takes values of a wrong type for absent, loads images
+// only as JPEG, PNG, BMP or GIF data, and its errors do not say where they are.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/json_view.h"
+
+namespace cutis::gltf {
+
+// What a hostile file may make the loader allocate.
+inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t(4) << 30;  // of each file
+inline constexpr std::uint64_t kMaxDecodedBytes = std::uint64_t(4)
+                                                  << 30;  // of all vertex data; of all images
+
+class Document {
+  public:
+    // Reads the file, checks the container, the version and the required extensions. Throws Error.
+    explicit Document(const std::filesystem::path& file);
+    ~Document();
+    Document(const Document&) = delete;
+    Document& operator=(const Document&) = delete;
+
+    const std::filesystem::path& file() const { return file_; }
+    JsonView root() const;
+    // Element `index` of the root's array `name` ("meshes"), and how many there are.
+    JsonView entry(const char* name, std::size_t index) const;
+    std::size_t count(const char* name) const;
+    // The entry that a reference (a value that is an index into the root's array `name`) means.
+    JsonView resolve(const JsonView& reference, const char* name) const;
+
+    // The bytes of a buffer view, checked to lie within its buffer. Loads the buffer when it is used first.
+    std::span<const std::byte> bufferView(std::size_t index);
+    // The bytes of a URI value: a data URI's, or those of a file within the folder of the glTF file.
+    std::vector<std::byte> readUri(const JsonView& uri) const;
+
+    // Counts bytes about to be allocated for vertex data; fails at `where` beyond kMaxDecodedBytes.
+    void spend(std::uint64_t bytes, const JsonView& where);
+
+  private:
+    std::span<const std::byte> buffer(std::size_t index);
+    void parse(std::span<const std::byte> text);
+    void openContainer();
+    void checkExtensions() const;
+    std::filesystem::path fileOfUri(const JsonView& uri) const;
+
+    std::filesystem::path file_;
+    JsonSource source_;
+    std::unique_ptr<nlohmann::json> json_;
+    std::vector<std::byte> bytes_;            // the file itself; a .glb's binary chunk stays in it
+    std::span<const std::byte> binaryChunk_;  // of bytes_
+    std::vector<std::optional<std::vector<std::byte>>>
+        buffers_;  // those that are not the binary chunk, once loaded
+    std::uint64_t spent_ = 0;
+};
+
+}  // namespace cutis::gltf
