@@ -19,7 +19,7 @@ namespace cutis::gpu {
 
 // An image with the way to sample it (Device::sampler).
 struct SampledImage {
-    ImageView view;
+    ImageView view{};
     VkSampler sampler = VK_NULL_HANDLE;
 };
 inline SampledImage sampled(ImageView view, VkSampler sampler) {
@@ -30,7 +30,7 @@ inline SampledImage sampled(ImageView view, VkSampler sampler) {
 // than the shader's repeats its first element; an empty one is an error.
 class Binding {
   public:
-    Binding(std::string_view shaderName, const Buffer& buffer) : name(shaderName), buffer(buffer.object()) {}
+    Binding(std::string_view shaderName, const Buffer& given) : name(shaderName), buffer(given.object()) {}
     Binding(std::string_view shaderName, ImageView view) : name(shaderName) {
         images.push_back({std::move(view)});
     }
@@ -79,13 +79,13 @@ struct ClearValue {
 
 // One mip of an image that is drawn into; without `clear`, onto what is there.
 struct Attachment {
-    ImageView view;
-    std::optional<ClearValue> clear;
+    ImageView view{};
+    std::optional<ClearValue> clear{};
 };
 
 struct RenderTargets {
-    std::vector<Attachment> colors;
-    std::optional<Attachment> depth;
+    std::vector<Attachment> colors{};
+    std::optional<Attachment> depth{};
     std::uint32_t width = 0, height = 0;  // 0: the first attachment's size
 };
 

@@ -230,6 +230,7 @@ void Commands::submitAndWait() {
     impl_->submit();
     impl_->collectTimings();
     for (const auto& readback : impl_->readbacks) readback->ready = true;
+    impl_->readbacks.clear();
     impl_->finished = true;
     impl_->resources.recording = false;
 }

@@ -61,6 +61,19 @@ DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::strin
     throw Error("device", "none matches \"" + select + "\" (there are: " + names + ")");
 }
 
+void appendNumber(std::string& key, std::uint32_t number) {
+    key += ' ';
+    key += std::to_string(number);
+}
+
+// Programs differ when their constants do.
+void appendConstants(std::string& key, const Specialization& constants) {
+    for (const SpecializationConstant& constant : constants) {
+        appendNumber(key, constant.id);
+        appendNumber(key, constant.bits);
+    }
+}
+
 std::uint64_t hashOf(std::span<const std::byte> bytes) {
     return bytes.empty() ? 0 : hashBytes(bytes);
 }
@@ -175,7 +188,7 @@ Commands Device::begin() {
 
 const Program& Device::program(std::string_view shader, const Specialization& constants) {
     std::string key(shader);
-    for (const auto& c : constants) key += " " + std::to_string(c.id) + "=" + std::to_string(c.bits);
+    appendConstants(key, constants);
     std::unique_ptr<Program>& slot = programs_[key];
     if (!slot) slot = std::make_unique<Program>(*this, std::vector{std::string(shader)}, nullptr, constants);
     return *slot;
@@ -184,8 +197,9 @@ const Program& Device::program(std::string_view shader, const Specialization& co
 const Program& Device::program(const std::vector<std::string>& shaders, const RasterState& s,
                                const Specialization& constants) {
     std::string key;
-    for (const std::string& shader : shaders) key += shader + " ";
-    for (const VkFormat format : s.colorFormats) key += std::to_string(format) + ",";
+    for (const std::string& shader : shaders) key += shader + '+';
+    for (const VkFormat format : s.colorFormats) appendNumber(key, std::uint32_t(format));
+    key += ';';
     const std::uint32_t fixed[] = {std::uint32_t(s.depthFormat),
                                    s.depthTest,
                                    s.depthWrite,
@@ -196,8 +210,8 @@ const Program& Device::program(const std::vector<std::string>& shaders, const Ra
                                    std::bit_cast<std::uint32_t>(s.depthBiasSlope),
                                    std::uint32_t(s.frontFace),
                                    std::bit_cast<std::uint32_t>(s.depthBiasClamp)};
-    for (const std::uint32_t number : fixed) key += " " + std::to_string(number);
-    for (const auto& c : constants) key += " " + std::to_string(c.id) + "=" + std::to_string(c.bits);
+    for (const std::uint32_t number : fixed) appendNumber(key, number);
+    appendConstants(key, constants);
     std::unique_ptr<Program>& slot = programs_[key];
     if (!slot) slot = std::make_unique<Program>(*this, shaders, &s, constants);
     return *slot;

@@ -34,12 +34,12 @@ std::vector<DeviceInfo> listDevices();
 struct DeviceOptions {
     // "cpu", an index, or part of a name in any case. Empty: $CUTIS_DEVICE, else the first discrete GPU, else
     // integrated, else virtual, else cpu.
-    std::string select;
+    std::string select{};
     // Also on when $CUTIS_VALIDATION is 1. Messages go to stderr as `cutis: validation: TEXT` and are
     // counted.
     bool validation = false;
     // For a window: what its library needs. With VK_KHR_surface among them, VK_KHR_swapchain is enabled too.
-    std::vector<const char*> instanceExtensions;
+    std::vector<const char*> instanceExtensions{};
 };
 
 // Warnings and errors of the validation layers since the program started, over all devices.
@@ -54,6 +54,10 @@ struct SamplerDesc {
     VkBorderColor border = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
     VkCompareOp compare = VK_COMPARE_OP_NEVER;  // other than NEVER: a shadow sampler
     float anisotropy = 1;                       // above 1 where the device can
+    // No interpolation at all: for formats that cannot be filtered, such as most devices' D32_SFLOAT.
+    static SamplerDesc nearest() {
+        return {.filter = VK_FILTER_NEAREST, .mipFilter = VK_SAMPLER_MIPMAP_MODE_NEAREST};
+    }
     auto operator<=>(const SamplerDesc&) const = default;
 };
 

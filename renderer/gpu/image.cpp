@@ -46,6 +46,28 @@ void checkDescription(const Device& device, const ImageDesc& desc) {
     }
 }
 
+std::uint64_t bytesOf(const ImageDesc& desc, const FormatInfo& format) {
+    std::uint64_t texels = 0;
+    for (std::uint32_t mip = 0; mip < desc.mips; ++mip) {
+        texels += std::uint64_t(std::max(1u, desc.width >> mip)) * std::max(1u, desc.height >> mip);
+    }
+    return texels * desc.layers * format.bytesPerTexel;
+}
+
+void checkFormat(const Device& device, const VkImageCreateInfo& info, std::uint64_t bytes,
+                 const std::string& what) {
+    VkImageFormatProperties properties;
+    check(vkGetPhysicalDeviceImageFormatProperties(device.physical(), info.format, info.imageType,
+                                                   info.tiling, info.usage, info.flags, &properties),
+          what);
+    if (bytes > properties.maxResourceSize) {
+        throw Error("device",
+                    what + " would take " + std::to_string(bytes / 1'000'000) + " MB, the limit is " +
+                        std::to_string(properties.maxResourceSize / 1'000'000) + " MB",
+                    device.info().name);
+    }
+}
+
 }  // namespace
 
 std::uint32_t fullMipCount(std::uint32_t width, std::uint32_t height) {
@@ -67,6 +89,7 @@ ImageObject::ImageObject(Device& owner, ImageDesc description)
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = desc.usage;
     const std::string what = "image \"" + desc.name + "\"";
+    checkFormat(device, info, bytesOf(desc, format), what);
     check(vkCreateImage(device.handle(), &info, nullptr, &handle), what);
     try {
         VkMemoryRequirements needs;

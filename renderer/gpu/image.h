@@ -13,7 +13,7 @@ class Device;
 struct ImageObject;
 
 struct ImageDesc {
-    std::string name;  // for messages
+    std::string name{};  // for messages
     VkFormat format = VK_FORMAT_UNDEFINED;
     std::uint32_t width = 0, height = 0;
     std::uint32_t layers = 1, mips = 1;

@@ -23,13 +23,13 @@ struct MemoryBlock {
 
     // First fit. Returns the offset, or nothing when no range is long enough.
     std::optional<VkDeviceSize> take(VkDeviceSize wanted, VkDeviceSize alignment) {
-        for (const auto [start, length] : freeRanges) {
+        for (auto range = freeRanges.begin(); range != freeRanges.end(); ++range) {
+            const VkDeviceSize start = range->first, end = start + range->second;
             const VkDeviceSize aligned = (start + alignment - 1) / alignment * alignment;
-            if (aligned + wanted > start + length) continue;
-            freeRanges.erase(start);
+            if (aligned + wanted > end) continue;
+            freeRanges.erase(range);
             if (aligned > start) freeRanges[start] = aligned - start;
-            if (aligned + wanted < start + length)
-                freeRanges[aligned + wanted] = start + length - aligned - wanted;
+            if (aligned + wanted < end) freeRanges[aligned + wanted] = end - aligned - wanted;
             return aligned;
         }
         return std::nullopt;
@@ -82,12 +82,12 @@ std::uint32_t MemoryAllocator::chooseType(std::uint32_t allowedTypes, MemoryUse 
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     const VkMemoryPropertyFlags required = use == MemoryUse::device ? 0 : kHost;
-    const VkMemoryPropertyFlags liked = use == MemoryUse::device     ? kLocal
-                                        : use == MemoryUse::readback ? kCached
-                                                                     : 0;
+    VkMemoryPropertyFlags liked = 0;
+    if (use == MemoryUse::device) liked = kLocal;
+    if (use == MemoryUse::readback) liked = kCached;
     // Memory that the host can see is scarce on a discrete GPU, so it is taken only where it is asked for.
-    const VkMemoryPropertyFlags disliked =
-        use == MemoryUse::device ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT : kLocal;
+    constexpr VkMemoryPropertyFlags kVisible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
+    const VkMemoryPropertyFlags disliked = use == MemoryUse::device ? kVisible : kLocal;
     int bestScore = -1;
     std::uint32_t best = 0;
     for (std::uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {

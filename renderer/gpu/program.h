@@ -32,7 +32,7 @@ using Specialization = std::vector<SpecializationConstant>;
 // Fixed state of a raster program. Triangle lists without vertex input: vertex shaders read storage buffers
 // by gl_VertexIndex. Viewport and scissor are the render targets' size. No blending.
 struct RasterState {
-    std::vector<VkFormat> colorFormats;
+    std::vector<VkFormat> colorFormats{};
     VkFormat depthFormat = VK_FORMAT_UNDEFINED;  // undefined: no depth attachment
     bool depthTest = true, depthWrite = true;
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS;

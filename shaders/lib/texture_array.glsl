@@ -1,0 +1,26 @@
+// Sampling one of several textures by an index that differs between neighbouring invocations.
+//
+// Many devices, Mesa's software one among them, cannot index an array of samplers by a value that is not constant, so
+// the index selects among constant ones. Define CUTIS_TEXTURE_ARRAY as the name of the array, declared with 16
+// elements, before including this:
+//
+//     layout(binding = 7) uniform sampler2DArray materialTextures[16];
+//     #define CUTIS_TEXTURE_ARRAY materialTextures
+//     #include "lib/texture_array.glsl"
+#ifndef CUTIS_TEXTURE_ARRAY_GLSL
+#define CUTIS_TEXTURE_ARRAY_GLSL
+
+// at: texture coordinates and layer; dx, dy: their change over one pixel, which chooses the mip.
+vec4 sampleTextureArray(uint index, vec3 at, vec2 dx, vec2 dy) {
+#define CUTIS_SAMPLE(i) case i: return textureGrad(CUTIS_TEXTURE_ARRAY[i], at, dx, dy);
+    switch (index) {
+        CUTIS_SAMPLE(0u) CUTIS_SAMPLE(1u) CUTIS_SAMPLE(2u) CUTIS_SAMPLE(3u)
+        CUTIS_SAMPLE(4u) CUTIS_SAMPLE(5u) CUTIS_SAMPLE(6u) CUTIS_SAMPLE(7u)
+        CUTIS_SAMPLE(8u) CUTIS_SAMPLE(9u) CUTIS_SAMPLE(10u) CUTIS_SAMPLE(11u)
+        CUTIS_SAMPLE(12u) CUTIS_SAMPLE(13u) CUTIS_SAMPLE(14u) CUTIS_SAMPLE(15u)
+    }
+#undef CUTIS_SAMPLE
+    return vec4(0.0);
+}
+
+#endif
