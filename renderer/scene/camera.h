@@ -11,13 +11,12 @@ namespace cutis {
 //   NAME         a camera of the scene
 //   INDEX        the same by its place in the file, from 0
 //   auto         made: a long lens (yfov 0.35) from the front (+Z) on the heads and shoulders of all
-//   characters, or on
-//                all there is in a scene without characters
-//   auto:AZ,EL   the same from azimuth AZ (0 = +Z, growing towards +X) and elevation EL (towards +Y), in
-//   degrees (empty)      the file's first camera, else auto
-// `aspect` (width / height) is the picture's: the made camera holds its subject inside for any; a camera of
-// the file keeps its vertical field. Throws Error: the cameras that there are, or what is wrong with the
-// angles.
+//                characters, or on all there is in a scene without characters
+//   auto:AZ,EL   the same from azimuth AZ (0 = +Z, growing towards +X) and elevation EL (towards +Y), degrees
+//   (empty)      the file's first camera, else auto
+// `aspect` (width / height) is the picture's, and the returned camera's: the made camera holds its subject
+// inside for any, a camera of the file keeps its vertical field (yfov, ymag). Throws Error: the cameras that
+// there are, or what is wrong with the angles.
 Camera cameraFor(const Scene& scene, const std::string& selector, double aspect);
 
 }  // namespace cutis

@@ -19,17 +19,14 @@ void updateWorldTransforms(Scene& scene);
 // Scene::bounds from world transforms.
 void computeBounds(Scene& scene);
 
-// Scene::characters and Scene::nodeCharacter. A character is a connected part of the node tree with skin
-// material:
-//   - Trees are apart: a root node never shares a character with another root node.
-//   - A node with a skin mesh is one character with all skin below it.
-//   - Where the children of a node without a skin mesh hold skin in several branches, each branch that is a
-//   group is
-//     a character of its own (or several); the branches that are skin meshes themselves are one character
-//     where their boxes touch (a head on its body) and several where they do not (two heads side by side).
-//   - Its root is the topmost ancestor that holds no other character. From what hangs there a character takes
-//   the
-//     meshes that touch it (eyes, teeth, hair, clothes) unless they are far larger (floor, backdrop, sky).
+// Scene::characters and Scene::nodeCharacter. A character is a connected part of the node tree with skin:
+// 1. Trees are apart: a root node never shares a character with another root node.
+// 2. A node with a skin mesh is one character with all skin below it.
+// 3. Where the children of a node without a skin mesh hold skin in several branches, each branch that is a
+//    group is a character of its own (or several); the branches that are skin meshes themselves are one
+//    character where their boxes touch (a head on its body), several where they do not (two heads).
+// 4. Its root is the topmost ancestor that holds no other character. From what hangs there a character takes
+//    the meshes that touch it (eyes, teeth, hair, clothes) unless they are far larger (floor, backdrop, sky).
 // They come in node order, named after their root nodes and made unique ("Anna", "Anna 2").
 void findCharacters(Scene& scene);
 

@@ -10,8 +10,8 @@
 namespace cutis {
 
 struct GltfOptions {
-    std::optional<std::string>
-        skin;            // as selectSkin; unset: material.extras.skin, else by name, with a warning
+    // What is skin, as for selectSkin. Unset: what material.extras.skin says, else the name, with a warning.
+    std::optional<std::string> skin;
     bool images = true;  // false: leave Scene::images without texels
 };
 

@@ -1,5 +1,4 @@
-// Accessors of a glTF file as plain arrays: strides, sparse values, normalized integers and bounds are dealt
-// with here.
+// Accessors of a glTF file as plain arrays: strides, sparse values, normalized integers, bounds.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +11,7 @@ namespace cutis::gltf {
 
 // Each takes a reference (a JSON value that is an index into `accessors`), checks that the accessor is of the
 // fitting type and lies within its buffer, and fails with the reference's path otherwise. Integers become
-// floats: [0, 1] or
-// [-1, 1] where the accessor is normalized, as they are where it is not.
-std::vector<float> readScalars(Document& document, const JsonView& reference);
+// floats: in [0, 1] or [-1, 1] where the accessor is normalized, as they are where it is not.
 std::vector<glm::vec2> readVec2(Document& document, const JsonView& reference);
 std::vector<glm::vec3> readVec3(Document& document, const JsonView& reference);
 std::vector<glm::vec4> readVec4(Document& document, const JsonView& reference);

@@ -21,8 +21,7 @@ namespace cutis::gltf {
 
 // What a hostile file may make the loader allocate.
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t(4) << 30;  // of each file
-inline constexpr std::uint64_t kMaxDecodedBytes = std::uint64_t(4)
-                                                  << 30;  // of all vertex data; of all images
+inline constexpr std::uint64_t kMaxDecodedBytes = kMaxFileBytes;        // of all vertex data; of all images
 
 class Document {
   public:
@@ -60,8 +59,7 @@ class Document {
     std::unique_ptr<nlohmann::json> json_;
     std::vector<std::byte> bytes_;            // the file itself; a .glb's binary chunk stays in it
     std::span<const std::byte> binaryChunk_;  // of bytes_
-    std::vector<std::optional<std::vector<std::byte>>>
-        buffers_;  // those that are not the binary chunk, once loaded
+    std::vector<std::optional<std::vector<std::byte>>> buffers_;  // loaded ones outside the binary chunk
     std::uint64_t spent_ = 0;
 };
 

@@ -1,8 +1,6 @@
-// The stages of loadGltf, each in a file of its own: nodes → materials → meshes → images. Used by the loader
-// only.
+// The stages of loadGltf, each in a file of its own: nodes → materials → meshes → images. Its own use only.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -17,9 +15,8 @@ inline constexpr int kNone = -1;
 
 // What the nodes of the file became.
 struct NodeMap {
-    std::vector<int>
-        sceneNode;  // per node of the file: index into Scene::nodes, or kNone when the scene lacks it
-    std::vector<int> fileNode;  // per node of the scene: index into the file's nodes
+    std::vector<int> sceneNode;  // per node of the file: index into Scene::nodes; kNone: not in the scene
+    std::vector<int> fileNode;   // per node of the scene: index into the file's nodes
 };
 
 // Nodes of the default scene (all where the file has no scenes), their cameras and lights, in the file's
@@ -36,8 +33,7 @@ struct ImageUse {
 };
 
 struct MaterialMap {
-    std::vector<int>
-        sceneMaterial;  // per material of the file: index into Scene::materials, or kNone when unused
+    std::vector<int> sceneMaterial;  // per material of the file: index into Scene::materials; kNone: unused
     std::vector<ImageUse> images;
     bool skinMarked = false;  // some material of the file has extras.skin
 };
@@ -47,8 +43,7 @@ MaterialMap readMaterials(Document& document, Scene& scene);
 
 // --- gltf_meshes.cpp, gltf_primitive.cpp ---
 
-// Matrices that take a skinned mesh's vertices to its node's space, one per joint; empty for an ordinary
-// mesh.
+// Matrices that take a skinned mesh's vertices to its node's space, one per joint; empty without a skin.
 using JointMatrices = std::vector<glm::dmat4>;
 
 // Meshes that nodes use; a mesh with a skin becomes one of its own per node, in the pose that the nodes are
@@ -56,7 +51,7 @@ using JointMatrices = std::vector<glm::dmat4>;
 void readMeshes(Document& document, const NodeMap& nodes, const MaterialMap& materials, Scene& scene);
 
 // One primitive, complete and checked; nothing when it has no triangles (points, lines, all degenerate).
-// `material` is its index into the scene's materials.
+// `material` is what it is made of, to know whether it needs tangents.
 std::optional<Primitive> readPrimitive(Document& document, const JsonView& primitive,
                                        const JointMatrices& joints, const Material& material);
 

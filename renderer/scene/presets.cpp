@@ -157,7 +157,7 @@ Rig presetRig(const std::string& name) {
             names.push_back(preset.name);
             list += (list.empty() ? "" : ", ") + preset.name;
         }
-        throw Error("unknown preset", "there are " + list + didYouMean(normalized(name), names), name);
+        throw Error("no preset '" + name + "'" + didYouMean(normalized(name), names), "there are " + list);
     }
     Rig rig;
     rig.name = entry->title;

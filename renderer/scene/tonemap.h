@@ -11,10 +11,10 @@ namespace cutis {
 // up to 0.8 - 0.04 as they are, save for the 0.04 that Fresnel reflection adds to them, and compresses and
 // desaturates what is brighter into [0, 1). Linear Rec.709 in and out.
 inline glm::vec3 toneMapNeutral(glm::vec3 color) {
-    constexpr float kF90 = 0.04f, kStart = 0.8f - kF90, kDesaturation = 0.15f;
+    constexpr float kF0 = 0.04f, kStart = 0.8f - kF0, kDesaturation = 0.15f;
     color = glm::max(color, glm::vec3(0));
     const float x = std::min({color.r, color.g, color.b});
-    color -= x < 2 * kF90 ? x - x * x / (4 * kF90) : kF90;
+    color -= x < 2 * kF0 ? x - x * x / (4 * kF0) : kF0;
     const float peak = std::max({color.r, color.g, color.b});
     if (peak <= kStart) return color;
     const float d = 1 - kStart;

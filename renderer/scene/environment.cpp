@@ -1,0 +1,75 @@
+#include "renderer/scene/environment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/core/error.h"
+#include "renderer/core/parallel.h"
+#include "renderer/scene/image_io.h"
+#include "renderer/scene/tonemap.h"
+
+namespace cutis {
+namespace {
+
+struct Findings {
+    std::size_t nan = 0, negative = 0, infinite = 0;
+    float largest = 0;  // finite
+};
+
+Findings examine(const std::vector<glm::vec3>& radiance) {
+    Findings found;
+    for (const glm::vec3& texel : radiance) {
+        for (int c = 0; c < 3; ++c) {
+            const float v = texel[c];
+            if (std::isnan(v)) {
+                ++found.nan;
+            } else if (v < 0) {
+                ++found.negative;
+            } else if (std::isinf(v)) {
+                ++found.infinite;
+            } else {
+                found.largest = std::max(found.largest, v);
+            }
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+void sanitizeEnvironment(Environment& environment) {
+    const Findings found = examine(environment.radiance);
+    if (found.nan + found.negative + found.infinite == 0) return;
+    for (glm::vec3& texel : environment.radiance) {
+        for (int c = 0; c < 3; ++c) {
+            // Comparisons with NaN are false: it becomes 0 with the negative values.
+            texel[c] = texel[c] > 0 ? std::min(texel[c], found.largest) : 0.f;
+        }
+    }
+    warn("environment " + environment.name + ": " + std::to_string(found.nan) + " NaN and " +
+         std::to_string(found.negative) + " negative values become 0, " + std::to_string(found.infinite) +
+         " infinite ones the largest that is finite");
+}
+
+Environment loadEnvironment(const std::filesystem::path& path) {
+    bool integers = false;
+    const Picture picture = readPixels(path, kMaxEnvironmentWidth, kMaxEnvironmentHeight, &integers);
+    Environment environment;
+    environment.name = path.filename().string();
+    environment.width = picture.width;
+    environment.height = picture.height;
+    environment.radiance.resize(std::size_t(picture.width) * picture.height);
+    const int n = picture.channels;
+    parallelFor(std::size_t(picture.height), [&](std::size_t y) {
+        for (std::size_t i = y * picture.width; i < (y + 1) * picture.width; ++i) {
+            const float* in = picture.values.data() + i * n;
+            glm::vec3 texel = n < 3 ? glm::vec3(in[0]) : glm::vec3(in[0], in[1], in[2]);
+            for (int c = 0; c < 3 && integers; ++c) texel[c] = decodeSrgb(texel[c]);
+            environment.radiance[i] = texel;
+        }
+    });
+    sanitizeEnvironment(environment);
+    return environment;
+}
+
+}  // namespace cutis
