@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/core/error.h"
+#include "renderer/core/suggest.h"
 #include "renderer/scene/characters.h"
 
 namespace cutis {
@@ -104,7 +105,7 @@ double parseNumber(std::string_view text, const std::string& selector) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-        throw Error("cannot use camera \"" + selector + "\"", "must be auto:AZ,EL, two numbers in degrees");
+        throw Error("cannot use camera '" + selector + "'", "must be auto:AZ,EL, two numbers in degrees");
     }
     return value;
 }
@@ -116,7 +117,7 @@ Camera parseAuto(const Scene& scene, const std::string& selector, double aspect)
     const double azimuth = parseNumber(angles.substr(0, comma), selector);
     const double elevation = comma == angles.npos ? 0 : parseNumber(angles.substr(comma + 1), selector);
     if (std::abs(elevation) > 90) {
-        throw Error("cannot use camera \"" + selector + "\"", "the elevation must be from -90 to 90");
+        throw Error("cannot use camera '" + selector + "'", "the elevation must be from -90 to 90");
     }
     return autoCamera(scene, azimuth, elevation, aspect);
 }
@@ -128,10 +129,14 @@ const Camera& findCamera(const Scene& scene, const std::string& selector) {
     const char* last = selector.data() + selector.size();
     const auto [end, error] = std::from_chars(selector.data(), last, index);
     if (error == std::errc() && end == last && index < scene.cameras.size()) return scene.cameras[index];
-    std::string names;
-    for (const Camera& camera : scene.cameras) names += "\"" + camera.name + "\", ";
-    throw Error("cannot find camera \"" + selector + "\"", "no such camera",
-                "there are " + names + "auto and auto:AZ,EL");
+    std::vector<std::string> names;
+    std::string list;
+    for (const Camera& known : scene.cameras) {
+        names.push_back(known.name);
+        list += "'" + known.name + "', ";
+    }
+    throw Error("no camera '" + selector + "'" + didYouMean(selector, names),
+                "there are " + list + "auto and auto:AZ,EL", scene.file.string());
 }
 
 }  // namespace

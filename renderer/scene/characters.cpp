@@ -5,6 +5,7 @@
 #include <set>
 
 #include "renderer/core/error.h"
+#include "renderer/core/suggest.h"
 
 namespace cutis {
 namespace {
@@ -219,10 +220,15 @@ class CharacterFinder {
     std::vector<Cluster> clusters_;
 };
 
-std::string namesOf(const std::vector<Character>& characters) {
-    std::string names;
-    for (const Character& character : characters) names += (names.empty() ? "" : ", ") + character.name;
-    return names.empty() ? "the scene has none" : "there are " + names;
+[[noreturn]] void refuseSubject(const Scene& scene, const std::string& subject) {
+    std::vector<std::string> names;
+    std::string list;
+    for (const Character& character : scene.characters) {
+        names.push_back(character.name);
+        list += (list.empty() ? "there are '" : ", '") + character.name + "'";
+    }
+    throw Error("no character '" + subject + "'" + didYouMean(subject, names),
+                list.empty() ? "the scene has none" : list, scene.file.string());
 }
 
 Bounds headOf(const Scene& scene, const std::vector<int>& nodes, bool skinOnly) {
@@ -280,16 +286,13 @@ Bounds headBounds(const Scene& scene, const std::string& subject) {
         heads.extend(headOf(scene, character.nodes, true));
         found = true;
     }
-    if (!found && subject != "*") {
-        throw Error("cannot find subject \"" + subject + "\"", "no such character",
-                    namesOf(scene.characters));
-    }
+    if (!found && subject != "*") refuseSubject(scene, subject);
     if (!found) {
         std::vector<int> all(scene.nodes.size());
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = int(i);
         heads = headOf(scene, all, false);
     }
-    if (heads.empty()) throw Error("cannot find subject \"" + subject + "\"", "the scene has no geometry");
+    if (heads.empty()) throw Error("cannot find a head", "the scene has no geometry", scene.file.string());
     return heads;
 }
 

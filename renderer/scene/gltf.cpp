@@ -17,7 +17,7 @@ std::string quotedNames(const std::vector<Material>& materials, bool skinOnly) {
     std::string names;
     for (const Material& material : materials) {
         if (skinOnly && !material.skin) continue;
-        names += (names.empty() ? "\"" : ", \"") + material.name + "\"";
+        names += (names.empty() ? "'" : ", '") + material.name + "'";
     }
     return names;
 }
@@ -117,8 +117,8 @@ void selectSkin(Scene& scene, const std::string& globOrNone) {
     const bool none = globOrNone == "none";
     if (!none && std::ranges::none_of(scene.materials, matches)) {
         const std::string names = quotedNames(scene.materials, false);
-        throw Error("cannot select skin", "no material is named like \"" + globOrNone + "\"",
-                    names.empty() ? "the scene has no materials" : "there are " + names);
+        throw Error("no material is named like '" + globOrNone + "'",
+                    names.empty() ? "the scene has none" : "there are " + names, scene.file.string());
     }
     for (Material& material : scene.materials) {
         if (none || !matches(material)) {
