@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/closed_forms.h"
@@ -51,7 +54,7 @@ RenderJob edgeJob(const Mapping& mapping) {
 }
 
 double mmPerTexel(const Rendered& rendered) {
-    return rendered.stats.at("atlas").at("mm_per_texel");
+    return rendered.stats.mmPerTexel;
 }
 
 // The picture with an atlas of `target` mm a texel. The atlas holds the plate and a border, so that its size
@@ -141,8 +144,16 @@ TEST_P(Edge, FollowsTheErrorFunction) {
     expectAtMost(name + " plateau", std::abs(plateau * std::numbers::pi / kLux - 1), 0.01);
 }
 
+std::string testName(const ::testing::TestParamInfo<std::tuple<int, double>>& instance) {
+    const auto& [mapping, target] = instance.param;
+    std::string name = kMappings[mapping].name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name + "_at_" + std::to_string(std::lround(target * 1000)) + "_micrometres";
+}
+
 INSTANTIATE_TEST_SUITE_P(Mappings, Edge,
-                         ::testing::Combine(::testing::Range(0, 6), ::testing::Values(0.1, 0.2, 0.4)));
+                         ::testing::Combine(::testing::Range(0, 6), ::testing::Values(0.1, 0.2, 0.4)),
+                         testName);
 
 }  // namespace
 }  // namespace cutis::test

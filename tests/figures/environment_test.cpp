@@ -111,7 +111,12 @@ INSTANTIATE_TEST_SUITE_P(Patches, EnvironmentOrientation,
                                            Patch{"top", 0.5, 0.0, 0, {0, 1, 0}},
                                            // Counter-clockwise seen from above takes -Z to -X, and +X to -Z.
                                            Patch{"centre turned by 90", 0.5, 0.5, 90, {-1, 0, 0}},
-                                           Patch{"right turned by 90", 0.75, 0.5, 90, {0, 0, -1}}));
+                                           Patch{"right turned by 90", 0.75, 0.5, 90, {0, 0, -1}}),
+                         [](const auto& instance) {
+                             std::string name = instance.param.name;
+                             std::replace(name.begin(), name.end(), ' ', '_');
+                             return name;
+                         });
 
 // Its intensity is a factor, and --env none leaves nothing.
 TEST(Environment, IsBlackWithoutOne) {

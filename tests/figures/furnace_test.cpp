@@ -44,7 +44,10 @@ TEST_P(WhiteFurnace, SphereIsOneEverywhere) {
     expectAtMost(name + " maximum", largest, 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(Roughness, WhiteFurnace, ::testing::Values(0.05, 0.1, 0.3, 0.6, 1.0));
+INSTANTIATE_TEST_SUITE_P(Roughness, WhiteFurnace, ::testing::Values(0.05, 0.1, 0.3, 0.6, 1.0),
+                         [](const auto& instance) {
+                             return "m_" + std::to_string(std::lround(instance.param * 100)) + "_hundredths";
+                         });
 
 }  // namespace
 }  // namespace cutis::test

@@ -156,7 +156,8 @@ TEST_P(OccludedSky, UnderAHat) {
         [&](const glm::dvec3& p, const glm::dvec3& w) { return !meetsBox(p, w, roofMin, roofMax); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Skies, OccludedSky, ::testing::Range(0, 2));
+INSTANTIATE_TEST_SUITE_P(Skies, OccludedSky, ::testing::Range(0, 2),
+                         [](const auto& instance) { return std::string(kSkies[instance.param].name); });
 
 }  // namespace
 }  // namespace cutis::test

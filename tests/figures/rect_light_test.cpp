@@ -37,7 +37,7 @@ double worstError(const Receiver& receiver, const glm::dvec3& lightPosition,
     job.irradianceSize = 64;
     job.aovs = {"irradiance", "position"};
     const Rendered result = render(job);
-    EXPECT_EQ(result.stats.at("light_samples").get<int>(), 64);
+    EXPECT_EQ(result.stats.lightSamples, 64);
 
     const auto corners = rectCorners(lightPosition, lightDirection, kWidth, kHeight);
     double worst = 0;

@@ -39,7 +39,7 @@ SceneBuilder slabScene(double thicknessMm) {
     return builder;
 }
 
-RenderJob slabJob(const SceneBuilder& builder, std::vector<nlohmann::json> lights) {
+RenderJob slabJob(const SceneBuilder& builder, std::vector<Light> lights) {
     RenderJob job{.scene = builder.scene(), .lights = std::move(lights), .width = 64, .height = 64};
     job.aovs = {"diffuse", "thickness"};
     return job;
@@ -65,7 +65,9 @@ TEST_P(Slab, TransmitsTheProfileOfItsThickness) {
     expectAtMost(name + " thickness", worstThickness, 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(Thickness, Slab, ::testing::Values(1.0, 2.0, 4.0));
+INSTANTIATE_TEST_SUITE_P(Thickness, Slab, ::testing::Values(1.0, 2.0, 4.0), [](const auto& instance) {
+    return std::to_string(std::lround(instance.param)) + "_mm";
+});
 
 // The faces are parallel and their normals opposite, so that d'Eon's correction gives the slab's thickness
 // for every angle: two lights through it are the sum of each alone, and each is its cosine times the closed
@@ -118,7 +120,7 @@ TEST(SteppedSlab, ThicknessIsTheSmallerPath) {
     SceneBuilder builder;
     builder.addObject("slab", makeSteppedSlab(), builder.addSkin(SceneBuilder::plainSkin()));
     builder.setOrthographicCamera(glm::dvec3(0, 0, 100) * kMm, {0, 0, 0}, 20 * kMm);
-    const auto thicknessUnder = [&](std::vector<nlohmann::json> lights) {
+    const auto thicknessUnder = [&](std::vector<Light> lights) {
         RenderJob job{.scene = builder.scene(), .lights = std::move(lights), .width = 200, .height = 20};
         job.irradianceSize = 768;
         job.aovs = {"thickness", "position"};
@@ -189,7 +191,9 @@ TEST_P(Occluder, RemovesTranslucency) {
     EXPECT_GE(thinnest, 50) << "an occluder's surface is not a thickness of this character";
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Occluder, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Kinds, Occluder, ::testing::Bool(), [](const auto& instance) {
+    return std::string(instance.param ? "another_character" : "not_skin");
+});
 
 }  // namespace
 }  // namespace cutis::test

@@ -28,13 +28,6 @@ RenderJob headJob(int size) {
     return job;
 }
 
-int runsOf(const Rendered& rendered, const std::string& pass) {
-    int runs = 0;
-    for (const nlohmann::json& row : rendered.stats.at("passes"))
-        if (row.at("name") == pass) runs += row.at("runs").get<int>();
-    return runs;
-}
-
 TEST(Superposition, TwoLightsOfDifferentKindsAdd) {
     RenderJob job = headJob(200);
     const auto key = directionalLight("key", {0.7, -0.5, -0.6}, 3);
@@ -60,8 +53,8 @@ TEST(Superposition, ARepeatedRunGivesTheSamePicture) {
     EXPECT_EQ(render(job).picture.values, render(job).picture.values);
 }
 
-std::vector<nlohmann::json> sixteenLights() {
-    std::vector<nlohmann::json> lights;
+std::vector<Light> sixteenLights() {
+    std::vector<Light> lights;
     for (int i = 0; i < 16; ++i) {
         const double azimuth = i * 2 * std::numbers::pi / 16, elevation = 0.9 * std::sin(1.7 * i);
         const glm::dvec3 position(std::sin(azimuth) * std::cos(elevation) * 0.6, std::sin(elevation) * 0.6,
@@ -86,28 +79,28 @@ std::vector<nlohmann::json> sixteenLights() {
 
 TEST(OneDiffusion, SixteenLightsAndAnEnvironmentAreDiffusedOnce) {
     RenderJob job = headJob(96);
-    const std::vector<nlohmann::json> lights = sixteenLights();
+    const std::vector<Light> lights = sixteenLights();
     const Picture environment = makeEnvironment(
         64, 32, [](const glm::dvec3& w) { return glm::dvec3(0.5 + 0.3 * w.x, 0.5 + 0.4 * w.y, 0.6); });
 
     Picture sum;
-    for (const nlohmann::json& light : lights) {
+    for (const Light& light : lights) {
         job.lights = {light};
         const Rendered alone = render(job);
-        EXPECT_EQ(runsOf(alone, "diffusion"), 1) << light.dump();
+        EXPECT_EQ(alone.stats.runsOf("diffusion"), 1) << light.name;
         addPicture(sum, alone.picture);
     }
     job.lights.clear();
     job.environment = environment;
     const Rendered ambient = render(job);
-    EXPECT_EQ(runsOf(ambient, "diffusion"), 1);
+    EXPECT_EQ(ambient.stats.runsOf("diffusion"), 1);
     addPicture(sum, ambient.picture);
 
     job.lights = lights;
     const Rendered all = render(job);
-    EXPECT_EQ(runsOf(all, "diffusion"), 1);
-    EXPECT_EQ(all.stats.at("lights").get<int>(), 16);
-    EXPECT_EQ(all.stats.at("light_samples").get<int>(), 12 + 4 * 4);
+    EXPECT_EQ(all.stats.runsOf("diffusion"), 1);
+    EXPECT_EQ(all.stats.lights, 16);
+    EXPECT_EQ(all.stats.lightSamples, 12 + 4 * 4);
     expectAtMost("superposition of sixteen lights and an environment", relativeL2(all.picture, sum), 0.002);
 }
 
@@ -119,7 +112,7 @@ TEST(OneDiffusion, DoesNotRunWithoutSkin) {
     RenderJob job{.scene = builder.scene(), .lights = {directionalLight("key", {0, -0.3, -1}, 3)}};
     job.width = job.height = 64;
     const Rendered result = render(job);
-    EXPECT_EQ(runsOf(result, "diffusion"), 0);
+    EXPECT_EQ(result.stats.runsOf("diffusion"), 0);
     EXPECT_GT(valueAt(result.picture, 32, 32), 0.1);
 }
 

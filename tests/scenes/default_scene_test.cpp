@@ -20,8 +20,8 @@ TEST(DefaultScene, RendersThreePeople) {
     const int width = 480, height = 270;
     const Rendered result =
         renderFile(scene, {}, width, height, {"character", "irradiance", "diffuse", "thickness"});
-    EXPECT_EQ(result.stats.at("nonfinite").get<int>(), 0);
-    EXPECT_GE(result.stats.at("characters").get<int>(), 3);
+    EXPECT_EQ(result.stats.nonfinite, 0);
+    EXPECT_GE(result.stats.characters, 3);
     EXPECT_EQ(countNonfinite(result.picture), 0u);
 
     std::map<int, int> pixelsOfCharacter;

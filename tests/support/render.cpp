@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "renderer/scene/gltf_writer.h"
@@ -17,8 +18,62 @@ Json toJson(const glm::dvec3& v) {
     return Json::array({v.x, v.y, v.z});
 }
 
-Json makeLight(const std::string& type, const std::string& name, double intensity) {
-    return {{"name", name}, {"type", type}, {"intensity", intensity}};
+// As a rig file has it (DESIGN §2.3). Typed here rather than saved by the program's own code, so that a slip
+// in that code cannot hide itself.
+Json toJson(const Light& light) {
+    Json json = {{"name", light.name}, {"intensity", light.intensity}};
+    if (light.type != LightType::directional) json["position"] = toJson(light.position);
+    if (light.type != LightType::point) json["direction"] = toJson(light.direction);
+    switch (light.type) {
+        case LightType::directional:
+            json["type"] = "directional";
+            break;
+        case LightType::point:
+            json["type"] = "point";
+            break;
+        case LightType::spot:
+            json["type"] = "spot";
+            json["inner_cone_angle"] = light.innerConeAngle;
+            json["outer_cone_angle"] = light.outerConeAngle;
+            break;
+        case LightType::rect:
+            json["type"] = "rect";
+            json["size"] = Json::array({light.size.x, light.size.y});
+            json["samples"] = light.samples;
+    }
+    return json;
+}
+
+Stats readStats(const std::filesystem::path& path) {
+    const Json json = Json::parse(std::ifstream(path));
+    Stats stats;
+    for (const Json& pass : json.at("passes")) {
+        stats.runs[pass.at("name")] += pass.at("runs").get<int>();
+        pass.at("gpu_ms").get<double>();
+        pass.at("reason").get<std::string>();
+    }
+    for (const Json& row : json.at("left_out")) stats.leftOut[row.at("name")] = row.at("reason");
+    const Json& atlas = json.at("atlas");
+    atlas.at("width").get_to(stats.atlasWidth);
+    atlas.at("height").get_to(stats.atlasHeight);
+    atlas.at("texels_covered").get_to(stats.texelsCovered);
+    atlas.at("mm_per_texel").get_to(stats.mmPerTexel);
+    json.at("device").get_to(stats.device);
+    json.at("lights").get_to(stats.lights);
+    json.at("light_samples").get_to(stats.lightSamples);
+    json.at("characters").get_to(stats.characters);
+    json.at("gaussians").get_to(stats.gaussians);
+    json.at("bytes_gpu").get_to(stats.bytesGpu);
+    json.at("nonfinite").get_to(stats.nonfinite);
+    json.at("load_ms").get_to(stats.loadMs);
+    json.at("frame_ms").get_to(stats.frameMs);
+    return stats;
+}
+
+Light makeLight(LightType type, const std::string& name, double intensity) {
+    Light light;
+    light.type = type, light.name = name, light.intensity = intensity;
+    return light;
 }
 
 Picture readSized(const std::filesystem::path& path, int width, int height) {
@@ -56,9 +111,8 @@ Rendered runRender(const TemporaryFolder& folder, std::vector<std::string> argum
     if (result.picture.channels != 4) throw std::runtime_error("the picture has no alpha");
     for (const std::string& name : aovs)
         result.aovs[name] = readSized(folder / ("out." + name + ".exr"), width, height);
-    result.stats = Json::parse(std::ifstream(stats));
-    if (result.stats.at("nonfinite").get<std::uint64_t>() != 0)
-        throw std::runtime_error("nonfinite values: " + result.stats.at("nonfinite").dump());
+    result.stats = readStats(stats);
+    if (result.stats.nonfinite != 0) throw std::runtime_error("the program counted nonfinite values");
     return result;
 }
 
@@ -123,35 +177,31 @@ void SceneBuilder::setOrthographicCamera(const glm::dvec3& eye, const glm::dvec3
     scene_.nodes.push_back(node);
 }
 
-Json directionalLight(const std::string& name, const glm::dvec3& direction, double lux) {
-    Json light = makeLight("directional", name, lux);
-    light["direction"] = toJson(direction);
+Light directionalLight(const std::string& name, const glm::dvec3& direction, double lux) {
+    Light light = makeLight(LightType::directional, name, lux);
+    light.direction = direction;
     return light;
 }
 
-Json pointLight(const std::string& name, const glm::dvec3& position, double candela) {
-    Json light = makeLight("point", name, candela);
-    light["position"] = toJson(position);
+Light pointLight(const std::string& name, const glm::dvec3& position, double candela) {
+    Light light = makeLight(LightType::point, name, candela);
+    light.position = position;
     return light;
 }
 
-Json spotLight(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction,
-               double candela, double innerAngle, double outerAngle) {
-    Json light = makeLight("spot", name, candela);
-    light["position"] = toJson(position);
-    light["direction"] = toJson(direction);
-    light["inner_cone_angle"] = innerAngle;
-    light["outer_cone_angle"] = outerAngle;
+Light spotLight(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction,
+                double candela, double innerAngle, double outerAngle) {
+    Light light = makeLight(LightType::spot, name, candela);
+    light.position = position, light.direction = direction;
+    light.innerConeAngle = innerAngle, light.outerConeAngle = outerAngle;
     return light;
 }
 
-Json rectLight(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction,
-               double radiance, double width, double height, int samples) {
-    Json light = makeLight("rect", name, radiance);
-    light["position"] = toJson(position);
-    light["direction"] = toJson(direction);
-    light["size"] = Json::array({width, height});
-    light["samples"] = samples;
+Light rectLight(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction,
+                double radiance, double width, double height, int samples) {
+    Light light = makeLight(LightType::rect, name, radiance);
+    light.position = position, light.direction = direction;
+    light.size = {width, height}, light.samples = samples;
     return light;
 }
 
@@ -161,7 +211,8 @@ Rendered render(const RenderJob& job) {
     for (Camera& camera : scene.cameras) camera.ymag = camera.xmag * job.height / job.width;
     writeGlb(scene, folder / "scene.glb");
 
-    Json rig = {{"cutis_rig", 1}, {"name", "test"}, {"lights", job.lights}};
+    Json rig = {{"cutis_rig", 1}, {"name", "test"}, {"lights", Json::array()}};
+    for (const Light& light : job.lights) rig["lights"].push_back(toJson(light));
     if (job.environment) {
         writeExr(folder / "environment.exr", *job.environment);
         rig["environment"] = {{"file", "environment.exr"}, {"rotation", job.environmentRotation}};

@@ -3,7 +3,6 @@
 
 #include <glm/glm.hpp>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,17 +37,16 @@ class SceneBuilder {
     Scene scene_;
 };
 
-// Lights as a rig file has them (DESIGN §2.3).
-nlohmann::json directionalLight(const std::string& name, const glm::dvec3& direction, double lux);
-nlohmann::json pointLight(const std::string& name, const glm::dvec3& position, double candela);
-nlohmann::json spotLight(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction,
-                         double candela, double innerAngle, double outerAngle);
-nlohmann::json rectLight(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction,
-                         double radiance, double width, double height, int samples);
+Light directionalLight(const std::string& name, const glm::dvec3& direction, double lux);
+Light pointLight(const std::string& name, const glm::dvec3& position, double candela);
+Light spotLight(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction,
+                double candela, double innerAngle, double outerAngle);
+Light rectLight(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction,
+                double radiance, double width, double height, int samples);
 
 struct RenderJob {
     Scene scene = {};
-    std::vector<nlohmann::json> lights = {};
+    std::vector<Light> lights = {};
     std::optional<Picture> environment = {};  // lat-long, three channels
     double environmentRotation = 0;           // degrees
     int width = 128, height = 128;
@@ -56,10 +54,21 @@ struct RenderJob {
     std::vector<std::string> aovs = {};
 };
 
+// What `--stats` says (DESIGN §2.1); reading it fails when one of its keys is missing.
+struct Stats {
+    std::string device;
+    std::map<std::string, int> runs;             // by name of the pass
+    std::map<std::string, std::string> leftOut;  // reason, by name
+    int lights = 0, lightSamples = 0, characters = 0, gaussians = 0;
+    int atlasWidth = 0, atlasHeight = 0;
+    double texelsCovered = 0, mmPerTexel = 0, bytesGpu = 0, nonfinite = 0, loadMs = 0, frameMs = 0;
+    int runsOf(const std::string& pass) const { return runs.count(pass) ? runs.at(pass) : 0; }
+};
+
 struct Rendered {
     Picture picture;
     std::map<std::string, Picture> aovs;
-    nlohmann::json stats;
+    Stats stats;
     // An AOV that the job asked for.
     const Picture& aov(const std::string& name) const { return aovs.at(name); }
 };
