@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/options.h"
 
@@ -21,8 +22,8 @@ struct Command {
     int (*run)(const Request& request);  // returns the exit status
 };
 
-// "rig show"
-std::string fullName(const Command& command);
+std::string fullName(const Command& command);  // "rig show"
+std::vector<const Option*> optionsOf(const Command& command);
 
 // In the order in which `cutis --help` prints them.
 std::span<const Command> commands();

@@ -1,7 +1,6 @@
 #include "app/command_line.h"
 
 #include <CLI/CLI.hpp>
-#include <memory>
 
 #include "app/usage_error.h"
 #include "renderer/core/suggest.h"
@@ -9,178 +8,92 @@
 namespace cutis::app {
 namespace {
 
-std::vector<const Option*> optionsOf(const Command& command) {
-    std::vector<const Option*> result;
-    for (const Option& option : options())
-        if (option.commands & command.options) result.push_back(&option);
-    return result;
-}
+// The words of a command line, not yet understood.
+struct Words {
+    std::vector<std::string> operands;
+    std::vector<std::vector<std::string>> values;  // per option of the command; an empty text for each flag
+};
 
-void refuseUnknown(const Command& command, const std::string& argument) {
+[[noreturn]] void refuseUnknown(const std::vector<const Option*>& known, const std::string& argument) {
     const std::string name = argument.substr(0, argument.find('='));
-    std::vector<std::string> known = {"--help"};
-    for (const Option* option : optionsOf(command)) known.emplace_back(option->longName());
-    throw UsageError("unknown option " + name + didYouMean(name, known));
+    std::vector<std::string> names = {"--help"};
+    for (const Option* option : known) names.emplace_back(option->longName());
+    throw UsageError("unknown option " + name + didYouMean(name, names));
 }
 
-void checkOperands(const Command& command, const std::vector<std::string>& operands) {
-    if (operands.size() < command.minOperands)
-        throw UsageError("cutis " + fullName(command) + " needs " + std::string(command.operands));
-    if (operands.size() > command.maxOperands) {
-        throw UsageError("cutis " + fullName(command) +
-                         (command.maxOperands ? " takes no more than " + std::string(command.operands)
-                                              : std::string(" takes only options")) +
-                         ", '" + operands[command.maxOperands] + "' is too much");
-    }
-    for (const std::string& operand : operands)
-        if (operand.empty())
-            throw UsageError("an empty text stands where " + std::string(command.operands) + " belongs");
-}
-
-}  // namespace
-
-std::string fullName(const Command& command) {
-    return std::string(command.group) + (command.group.empty() ? "" : " ") + std::string(command.name);
-}
-
-Request parseArguments(const Command& command, const std::vector<std::string>& arguments) {
+Words readWords(const std::vector<const Option*>& known, const std::vector<std::string>& arguments) {
     CLI::App parser;
     parser.set_help_flag();  // help is answered before
     parser.allow_extras();   // so that unknown options get our own message
-    std::vector<std::string> operands;
-    parser.add_option("operands", operands);
-
-    const std::vector<const Option*> known = optionsOf(command);
-    std::vector<std::vector<std::string>> values(known.size());
+    Words words;
+    parser.add_option("operands", words.operands);
+    words.values.resize(known.size());
     std::vector<CLI::Option*> parsed;
     for (std::size_t i = 0; i < known.size(); ++i) {
         const std::string names(known[i]->names);
-        if (known[i]->metavar.empty()) {
-            parsed.push_back(parser.add_flag(names));
-        } else {
-            parsed.push_back(parser.add_option(names, values[i])->allow_extra_args(false));
-        }
+        parsed.push_back(known[i]->isFlag()
+                             ? parser.add_flag(names)
+                             : parser.add_option(names, words.values[i])->allow_extra_args(false));
     }
     try {
         parser.parse(
             std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // it wants them reversed
     } catch (const CLI::ArgumentMismatch& error) {
-        const std::string text = error.what();
+        const std::string text = error.what();  // "--size: 1 required TEXT missing"
         throw UsageError(text.substr(0, text.find(':')) + " needs a value");
     } catch (const CLI::ParseError& error) {
         throw UsageError(error.what());
     }
     if (const std::vector<std::string> unknown = parser.remaining(); !unknown.empty())
-        refuseUnknown(command, unknown.front());
+        refuseUnknown(known, unknown.front());
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        if (!known[i]->isFlag()) continue;
+        // CLI11 would take --flag=false for an answer.
+        if (parsed[i]->results() != std::vector<std::string>(parsed[i]->count(), "true"))
+            throw UsageError(std::string(known[i]->longName()) + " takes no value");
+        words.values[i].resize(parsed[i]->count());
+    }
+    return words;
+}
 
+void checkOperands(const Command& command, const std::vector<std::string>& operands) {
+    const std::string what(command.operands);
+    if (operands.size() < command.minOperands) throw UsageError(what + " is missing");
+    if (operands.size() > command.maxOperands) {
+        throw UsageError("'" + operands[command.maxOperands] + "' is too much: " + fullName(command) +
+                         " takes " + (what.empty() ? "options only" : what + " and options"));
+    }
+    for (const std::string& operand : operands)
+        if (operand.empty()) throw UsageError(what + " is empty");
+}
+
+Request understand(const Command& command, const std::vector<const Option*>& known, const Words& words) {
+    checkOperands(command, words.operands);
     Request request;
-    request.operands = operands;
-    checkOperands(command, operands);
+    request.operands = words.operands;
     for (std::size_t i = 0; i < known.size(); ++i) {
         const std::string name(known[i]->longName());
-        const std::size_t count = parsed[i]->count();
-        if (count > 1 && !known[i]->repeatable) throw UsageError(name + " is given twice");
-        if (known[i]->metavar.empty()) values[i].resize(count);
+        if (words.values[i].size() > 1 && !known[i]->repeatable) throw UsageError(name + " is given twice");
         try {
-            for (const std::string& value : values[i]) known[i]->parse(request, value);
+            for (const std::string& value : words.values[i]) known[i]->parse(request, value);
         } catch (const UsageError& error) {
             throw UsageError(name + ' ' + error.what());
         }
     }
-    if (command.needsOutput && request.outputs.empty())
-        throw UsageError("cutis " + fullName(command) + " needs -o FILE");
+    if (command.needsOutput && request.outputs.empty()) throw UsageError("-o FILE is missing");
     checkConflicts(request);
     return request;
 }
 
-namespace {
-
-constexpr std::size_t kHelpWidth = 100, kHelpColumn = 26;
-
-// Appends text from the current column on, wrapped and indented to `column`.
-void appendWrapped(std::string& help, std::size_t column, std::string_view text) {
-    std::size_t at = column;
-    bool first = true;
-    while (!text.empty()) {
-        const std::size_t space = std::min(text.find(' '), text.size());
-        const std::string_view word = text.substr(0, space);
-        text.remove_prefix(std::min(space + 1, text.size()));
-        if (!first && at + 1 + word.size() > kHelpWidth) {
-            help += '\n' + std::string(column, ' ');
-            at = column;
-            first = true;
-        }
-        if (!first) help += ' ', ++at;
-        help += word;
-        at += word.size();
-        first = false;
-    }
-    help += '\n';
-}
-
-void appendRow(std::string& help, const std::string& left, std::string_view right) {
-    help += "  " + left;
-    if (left.size() + 4 > kHelpColumn) {
-        help += '\n' + std::string(kHelpColumn, ' ');
-    } else {
-        help += std::string(kHelpColumn - 2 - left.size(), ' ');
-    }
-    appendWrapped(help, kHelpColumn, right);
-}
-
-std::string withOperands(const Command& command) {
-    std::string text = fullName(command);
-    if (!command.operands.empty()) text += ' ' + std::string(command.operands);
-    if (command.needsOutput) text += " -o FILE";
-    return text;
-}
-
 }  // namespace
 
-std::string programHelp() {
-    std::string help =
-        "cutis lights human skin: glTF scenes with several characters, rigs of several lights, HDR "
-        "environments.\n\n"
-        "Usage: cutis COMMAND [operands] [options]\n\nCommands:\n";
-    for (const Command& command : commands()) appendRow(help, withOperands(command), command.summary);
-    appendRow(help, "help [COMMAND]", "This text, or all about a command, as cutis COMMAND --help");
-    help += "\nOptions:\n";
-    appendRow(help, "--help, -h", "This text");
-    appendRow(help, "--version", "The version of this program");
-    help += "\nEnvironment:\n";
-    appendRow(help, "CUTIS_DATA_DIR", "Where the default scene lies");
-    appendRow(help, "CUTIS_CACHE_DIR", "Where results worth keeping lie (default: ~/.cache/cutis)");
-    appendRow(help, "CUTIS_DEVICE", "What --device is when it is not given");
-    appendRow(help, "CUTIS_VALIDATION",
-              "1 runs with Vulkan's validation layers; what they say makes the run fail");
-    help += "\nExit status: 0; 1 it failed, with one line on stderr; 2 the command line is wrong.\n";
-    return help;
-}
-
-std::string commandHelp(const Command& command) {
+Request parseArguments(const Command& command, const std::vector<std::string>& arguments) {
     const std::vector<const Option*> known = optionsOf(command);
-    std::string help;
-    appendWrapped(help, 0, command.summary);
-    help += "\nUsage: cutis " + withOperands(command) + (known.empty() ? "" : " [options]") + "\n";
-    std::string_view rest = command.details;
-    if (!rest.empty()) help += '\n';
-    while (!rest.empty()) {
-        const std::size_t end = std::min(rest.find('\n'), rest.size());
-        appendWrapped(help, 0, rest.substr(0, end));
-        rest.remove_prefix(std::min(end + 1, rest.size()));
+    try {
+        return understand(command, known, readWords(known, arguments));
+    } catch (const UsageError& error) {
+        throw UsageError(error.what(), fullName(command));
     }
-    std::string_view group;
-    for (const Option* option : known) {
-        if (option->group != group) help += '\n' + std::string(group = option->group) + ":\n";
-        std::string names(option->names);
-        if (const std::size_t comma = names.find(','); comma != std::string::npos)
-            names.insert(comma + 1, " ");
-        if (!option->metavar.empty()) names += ' ' + std::string(option->metavar);
-        appendRow(help, names, option->help);
-    }
-    help += known.empty() ? "\nOptions:\n" : "\nHelp:\n";
-    appendRow(help, "--help, -h", "This text");
-    return help;
 }
 
 }  // namespace cutis::app

@@ -1,4 +1,4 @@
-// argv to a command and its request, and the texts of --help.
+// Arguments to a request.
 #pragma once
 
 #include <string>
@@ -12,9 +12,5 @@ namespace cutis::app {
 // twice, one without its value or with an impossible one, too few or too many operands, options that exclude
 // each other.
 Request parseArguments(const Command& command, const std::vector<std::string>& arguments);
-
-// The program's help, and a command's own, which lists all of its options.
-std::string programHelp();
-std::string commandHelp(const Command& command);
 
 }  // namespace cutis::app

@@ -10,6 +10,7 @@
 
 #include "app/command.h"
 #include "app/command_line.h"
+#include "app/help.h"
 #include "app/signals.h"
 #include "app/usage_error.h"
 #include "renderer/core/error.h"
@@ -40,6 +41,17 @@ std::span<const Command> commands() {
          "", runDevices},
     };
     return kCommands;
+}
+
+std::string fullName(const Command& command) {
+    return std::string(command.group) + (command.group.empty() ? "" : " ") + std::string(command.name);
+}
+
+std::vector<const Option*> optionsOf(const Command& command) {
+    std::vector<const Option*> result;
+    for (const Option& option : options())
+        if (option.commands & command.options) result.push_back(&option);
+    return result;
 }
 
 namespace {
@@ -102,7 +114,7 @@ int runProgram(std::vector<std::string> arguments) {
     if (found.size() > 1) {
         std::string list;
         for (const Command* command : found) list += (list.empty() ? "" : ", ") + std::string(command->name);
-        throw UsageError("cutis " + arguments[0] + " needs one of " + list);
+        throw UsageError("cutis " + arguments[0] + " needs one of " + list, arguments[0]);
     }
     const Command& command = *found[0];
     arguments.erase(arguments.begin(), arguments.begin() + (command.group.empty() ? 1 : 2));
@@ -117,7 +129,8 @@ int reportErrors(const std::vector<std::string>& arguments) {
             throw Error("cannot write", std::strerror(errno), "standard output");
         return status;
     } catch (const UsageError& error) {
-        const Error line("usage", error.what(), "see cutis --help");
+        const std::string command = error.command().empty() ? "" : error.command() + ' ';
+        const Error line("usage", error.what(), "see cutis " + command + "--help");
         std::fprintf(stderr, "cutis: error: %s\n", line.what());
         return 2;
     } catch (const Error& error) {

@@ -44,6 +44,7 @@ struct Option {
     void (*parse)(Request& request, const std::string& text);
 
     std::string_view longName() const;
+    bool isFlag() const { return metavar.empty(); }
 };
 
 std::span<const Option> options();

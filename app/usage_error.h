@@ -8,7 +8,14 @@ namespace cutis::app {
 
 class UsageError : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    // `command` is the one whose help says more; empty for the program's.
+    explicit UsageError(const std::string& why, std::string command = {})
+        : std::runtime_error(why), command_(std::move(command)) {}
+
+    const std::string& command() const { return command_; }
+
+  private:
+    std::string command_;
 };
 
 }  // namespace cutis::app

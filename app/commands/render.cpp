@@ -3,12 +3,14 @@
 
 #include <chrono>
 #include <future>
+#include <set>
 #include <vector>
 
 #include "app/command.h"
 #include "app/inputs.h"
 #include "app/progress.h"
 #include "app/stats_json.h"
+#include "app/usage_error.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
 #include "renderer/gpu/device.h"
@@ -30,6 +32,11 @@ std::vector<fs::path> filesToWrite(const Request& request) {
     for (const std::string& name : request.settings.aovs)
         files.push_back(aovFile(request.outputs.front(), name));
     if (!request.stats.empty()) files.push_back(request.stats);
+    std::set<fs::path> unique;
+    for (const fs::path& file : files) {
+        if (!unique.insert(file.lexically_normal()).second)
+            throw UsageError("two results would be written to " + file.string(), "render");
+    }
     return files;
 }
 
