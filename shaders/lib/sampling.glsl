@@ -11,20 +11,34 @@ mat3 frameAlong(vec3 n, vec3 v) {
     return mat3(x, cross(n, x), n);
 }
 
-// Direction, not normalised, of the point st ∈ [-1,1]² of a cube face, as Vulkan orders and turns them
-// (Vulkan 1.3 specification, table "Cube map face and coordinate selection").
-vec3 cubeDirection(uint face, vec2 st) {
-    if (face == 0u) return vec3(1.0, -st.y, -st.x);
-    if (face == 1u) return vec3(-1.0, -st.y, st.x);
-    if (face == 2u) return vec3(st.x, 1.0, st.y);
-    if (face == 3u) return vec3(st.x, -1.0, -st.y);
-    if (face == 4u) return vec3(st.x, -st.y, 1.0);
-    return vec3(-st.x, -st.y, -1.0);
+// A cube face as Vulkan orders and turns them (Vulkan 1.3 specification, table "Cube map face and coordinate selection"):
+// the point st ∈ [-1,1]² of it lies in direction axis + s·right + t·down.
+struct CubeFace {
+    vec3 right, down, axis;
+};
+
+CubeFace cubeFace(uint face) {
+    if (face == 0u) return CubeFace(vec3(0.0, 0.0, -1.0), vec3(0.0, -1.0, 0.0), vec3(1.0, 0.0, 0.0));
+    if (face == 1u) return CubeFace(vec3(0.0, 0.0, 1.0), vec3(0.0, -1.0, 0.0), vec3(-1.0, 0.0, 0.0));
+    if (face == 2u) return CubeFace(vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 1.0, 0.0));
+    if (face == 3u) return CubeFace(vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, -1.0), vec3(0.0, -1.0, 0.0));
+    if (face == 4u) return CubeFace(vec3(1.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0), vec3(0.0, 0.0, 1.0));
+    return CubeFace(vec3(-1.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0), vec3(0.0, 0.0, -1.0));
+}
+
+// Not normalised.
+vec3 cubeDirection(CubeFace face, vec2 st) {
+    return face.axis + st.x * face.right + st.y * face.down;
+}
+
+// Centre of a texel of a face of n × n texels, in [-1,1]².
+vec2 cubeTexelCentre(uvec2 texel, uint n) {
+    return (vec2(texel) + 0.5) * (2.0 / float(n)) - 1.0;
 }
 
 // Solid angle of a texel of a cube face of n × n texels whose centre is at st: dω = 4/n² / (1 + s² + t²)^1.5.
-float cubeTexelSolidAngle(vec2 st, float n) {
-    return 4.0 / (n * n) * pow(1.0 + dot(st, st), -1.5);
+float cubeTexelSolidAngle(vec2 st, uint n) {
+    return 4.0 / float(n * n) * pow(1.0 + dot(st, st), -1.5);
 }
 
 // Point k of n of a spiral that covers the unit disc evenly (Vogel 1979): x the fraction of the area within, in (0,1),

@@ -12,5 +12,11 @@ const uint ENVIRONMENT_LEVELS = 7u;
 const float ENVIRONMENT_SPREAD = 3.0f / 256.0f;
 const float ENVIRONMENT_SPREAD_0 = 1.0f / 256.0f;
 
+// Light that is taken to come from one direction.
+struct EnvironmentSource {
+    vec3 flux;  // RGB ∫ L dω
+    vec3 mean;  // mean direction; shorter than 1 where the light is spread (EnvironmentCluster::centroid)
+};
+
 CUTIS_SHARED_END
 #endif

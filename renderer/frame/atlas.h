@@ -1,0 +1,38 @@
+// Where each character's skin lies in the one atlas (DESIGN §1.4).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "renderer/frame/geometry.h"
+
+namespace cutis {
+
+// The UV layout of one skin material of one character, as a rectangle of the atlas.
+struct AtlasChart {
+    int character = -1, material = -1;
+    glm::dvec2 uvMin{0}, uvMax{0};
+    glm::dvec2 sizeMm{0};  // of the rectangle on the surface, on average
+    glm::uvec4 rect{0};    // x, y, width, height in texels
+};
+
+struct Atlas {
+    int size = 0;  // texels along each side
+    std::vector<AtlasChart> charts;
+    std::vector<shared::AtlasVertex> vertices;   // one a skin vertex
+    std::vector<std::uint32_t> borderTriangles;  // skin triangles that touch the border of their UV island
+    double mmPerTexel = 0;                        // median over the surface's texels
+};
+
+struct AtlasOptions {
+    int size = 0;                            // exactly this; 0: chosen
+    std::vector<double> mmPerTexelWanted;  // a character; used when size is 0
+    int maxSize = 4096;                      // bound when size is 0
+};
+
+// Sizes and packs the charts, places the skin's vertices in them, and sets DrawInfo::chart. Throws Error when the
+// charts do not fit an atlas of the asked size.
+Atlas layOutAtlas(const Scene& scene, Geometry& geometry, const AtlasOptions& options);
+
+}  // namespace cutis

@@ -1,0 +1,46 @@
+// Everything one frame holds while its passes are recorded.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "renderer/frame/atlas.h"
+#include "renderer/frame/geometry.h"
+#include "renderer/frame/plan.h"
+#include "renderer/frame/upload.h"
+#include "renderer/passes/composite.h"
+#include "renderer/passes/environment.h"
+#include "renderer/passes/environment_visibility.h"
+#include "renderer/passes/resources.h"
+#include "renderer/scene/environment_clusters.h"
+#include "renderer/scene/light.h"
+
+namespace cutis {
+
+struct FrameContext {
+    gpu::Device* device = nullptr;
+    gpu::Commands* commands = nullptr;
+    const RenderInput* input = nullptr;
+    const RenderSettings* settings = nullptr;
+    Needs needs;
+
+    Geometry geometry;
+    Atlas atlas;
+    UploadedScene scene;
+    std::vector<LightSample> lightSamples;  // of the rig, then those drawn from the environment
+    std::vector<Bounds> groups;             // of receivers
+
+    const Environment* environment = nullptr;  // what is left of it once light samples are drawn
+    EnvironmentMaps environmentMaps;           // filled before recording: filtering submits its own commands
+    std::vector<EnvironmentCluster> clusters;
+    gpu::Buffer environmentSettings;
+
+    SurfaceImages surface;
+    LightMaps lights;
+    EnvironmentVisibility visibility;
+    SkinLight skin;
+    shared::ViewCamera camera{};
+    PictureTarget target;
+};
+
+}  // namespace cutis

@@ -1,0 +1,46 @@
+// A scene flattened for the GPU: world-space vertex streams, triangles, draws, and the groups that light maps serve.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+#include "shaders/shared/scene.h"
+
+namespace cutis {
+
+// One primitive placed in the world; index k of its vectors is index k of DrawInfo.
+struct GeometryDraw {
+    int node = -1, mesh = -1, primitive = -1;
+    int material = -1;
+    int character = -1;  // index into Scene::characters
+    std::uint32_t firstIndex = 0, indexCount = 0;
+    std::uint32_t firstVertex = 0, vertexCount = 0;
+    bool skin = false;
+    Bounds bounds;  // world
+};
+
+// What one view of a light sample is fitted to: a character, or all that belongs to none.
+struct ReceiverGroup {
+    Bounds bounds;  // world
+};
+
+struct Geometry {
+    glm::dvec3 origin{0};  // world place of the streams' zero: the centre of the scene's bounds
+    std::vector<glm::vec3> positions;
+    std::vector<shared::VertexAttributes> attributes;
+    std::vector<std::uint32_t> indices;        // global vertex numbers; skin triangles first
+    std::vector<std::uint32_t> triangleDraws;  // per triangle
+    std::vector<GeometryDraw> draws;           // skin first
+    std::vector<shared::DrawInfo> drawInfos;   // chart is filled by layOutAtlas
+    std::vector<ReceiverGroup> receiverGroups;
+    Bounds bounds;  // world, of everything
+    std::uint32_t skinVertexCount = 0, skinTriangleCount = 0;
+    std::uint32_t probeCount = 0;  // vertices that are not skin
+};
+
+// Throws Error when the scene holds more than 2³² / 3 triangles or vertices, or skin without texture coordinates.
+Geometry flattenScene(const Scene& scene);
+
+}  // namespace cutis

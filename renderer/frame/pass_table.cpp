@@ -1,0 +1,172 @@
+// The pass table: to add a pass, add its row here, its pair of files and its shader.
+#include "renderer/frame/frame.h"
+#include "renderer/gpu/device.h"
+#include "renderer/passes/diffusion.h"
+#include "renderer/passes/exitance.h"
+#include "renderer/passes/irradiance.h"
+#include "renderer/passes/light_maps.h"
+#include "renderer/passes/light_views.h"
+#include "renderer/passes/surface.h"
+
+namespace cutis {
+namespace {
+
+// Samples of the picture that fit one view image; larger pictures are drawn in tiles.
+constexpr int kTileSamples = 4096;
+constexpr int kSupersampling = 2;
+// Directions in which the environment's visibility is known: enough that a hemisphere's irradiance is within 2 %.
+constexpr int kVisibilityDirections = 128;
+constexpr int kVisibilityMapSize = 256;
+// Memory that light maps may take, and the sizes that they may have.
+constexpr std::uint64_t kLightMapBytes = std::uint64_t(512) << 20;
+constexpr int kLargestLightMap = 2048, kSmallestLightMap = 128;
+
+void uploadLights(FrameContext& frame) {
+    std::vector<shared::LightSampleData> samples;
+    std::uint32_t shadowed = 0;
+    for (const LightSample& from : frame.lightSamples) {
+        shared::LightSampleData to{};
+        to.position = glm::vec3(from.position - frame.geometry.origin);
+        to.direction = glm::vec3(from.direction);
+        to.intensity = glm::vec3(from.intensity);
+        to.cosInner = static_cast<float>(from.cosInner);
+        to.cosOuter = static_cast<float>(from.cosOuter);
+        to.range = static_cast<float>(from.range);
+        to.radius = static_cast<float>(from.radius);
+        if (from.directional) to.flags |= shared::LIGHT_DIRECTIONAL;
+        if (from.cosineEmission) to.flags |= shared::LIGHT_COSINE;
+        if (from.shadow) {
+            to.flags |= shared::LIGHT_SHADOW;
+            to.firstView = shadowed++ * static_cast<std::uint32_t>(frame.groups.size());
+        }
+        samples.push_back(to);
+    }
+    frame.lights.sampleCount = static_cast<std::uint32_t>(samples.size());
+    frame.lights.samples = gpu::Buffer(
+        *frame.device, {.name = "light samples", .bytes = samples.size() * sizeof(shared::LightSampleData)});
+    if (!samples.empty()) frame.commands->upload(frame.lights.samples, samples);
+}
+
+int lightMapSize(const FrameContext& frame, std::size_t views) {
+    const std::uint64_t texelBytes = frame.needs[Need::translucency] ? 8 : 4;
+    int size = kLargestLightMap;
+    while (size > kSmallestLightMap && views * texelBytes * size * size > kLightMapBytes) size /= 2;
+    return size;
+}
+
+void lightMapsRow(FrameContext& frame) {
+    std::vector<LightSample> shadowed;
+    for (const LightSample& sample : frame.lightSamples) {
+        if (sample.shadow) shadowed.push_back(sample);
+    }
+    LightMaps& maps = frame.lights;
+    const std::size_t count = shadowed.size() * frame.groups.size();
+    maps.size = lightMapSize(frame, count);
+    maps.viewList =
+        computeLightViews(shadowed, frame.groups, frame.geometry.bounds, frame.geometry.origin, maps.size);
+    maps.views = gpu::Buffer(*frame.device, {.name = "light views", .bytes = count * sizeof(shared::LightView)});
+    frame.commands->upload(maps.views, maps.viewList);
+    const auto image = [&](const char* name, VkFormat format) {
+        const auto size = static_cast<std::uint32_t>(maps.size);
+        return gpu::Image(*frame.device, {.name = name, .format = format, .width = size, .height = size,
+                                          .layers = static_cast<std::uint32_t>(count)});
+    };
+    maps.depth = image("light depth", VK_FORMAT_D32_SFLOAT);
+    if (frame.needs[Need::translucency]) maps.entry = image("light entry points", VK_FORMAT_R32_UINT);
+    recordLightMaps(*frame.device, *frame.commands, frame.scene.buffers,
+                    {.depth = &maps.depth, .entry = maps.entry ? &maps.entry : nullptr, .viewBuffer = &maps.views,
+                     .views = maps.viewList, .firstView = 0, .viewCount = static_cast<std::uint32_t>(count),
+                     .size = maps.size, .atlasSize = frame.atlas.size});
+}
+
+void surfaceRow(FrameContext& frame) {
+    frame.surface = recordSurface(*frame.device, *frame.commands, frame.scene.buffers, frame.atlas.size);
+}
+
+void environmentVisibilityRow(FrameContext& frame) {
+    std::vector<std::uint32_t> vertexCounts;
+    for (const GeometryDraw& draw : frame.geometry.draws) vertexCounts.push_back(draw.vertexCount);
+    const VisibilityInput input{.scene = &frame.scene.buffers,
+                                .surface = frame.surface.size > 0 ? &frame.surface : nullptr,
+                                .draws = frame.geometry.drawInfos,
+                                .vertexCounts = vertexCounts,
+                                .groups = frame.groups,
+                                .casters = frame.geometry.bounds,
+                                .origin = frame.geometry.origin,
+                                .probeCount = frame.geometry.probeCount,
+                                .mapSize = kVisibilityMapSize};
+    const std::vector<glm::dvec3> directions = visibilityDirections(kVisibilityDirections);
+    const std::vector<glm::vec3> narrow(directions.begin(), directions.end());
+    const EnvironmentSettings& settings = frame.input->rig.environment;
+    std::vector<shared::EnvironmentDirection> arriving;
+    for (const DirectionalFlux& from :
+         fluxPerDirection(frame.clusters, directions, settings.rotation, settings.intensity)) {
+        arriving.push_back({glm::vec3(from.flux), glm::vec3(from.direction)});
+    }
+    frame.visibility = recordEnvironmentVisibility(*frame.device, *frame.commands, input, narrow);
+    recordEnvironmentOcclusion(*frame.device, *frame.commands, input, narrow, arriving, frame.visibility);
+}
+
+void irradianceRow(FrameContext& frame) {
+    const bool environment = frame.needs[Need::environment];
+    recordIrradiance(*frame.device, *frame.commands,
+                     {.scene = &frame.scene.buffers,
+                      .surface = &frame.surface,
+                      .lights = frame.needs[Need::lights] ? &frame.lights : nullptr,
+                      .environment = environment ? &frame.environmentMaps : nullptr,
+                      .visibility = environment ? &frame.visibility : nullptr,
+                      .environmentSettings = environment ? &frame.environmentSettings : nullptr},
+                     frame.skin);
+}
+
+void diffusionRow(FrameContext& frame) {
+    recordDiffusion(*frame.device, *frame.commands, frame.surface, frame.scene.charts, frame.skin);
+}
+
+void exitanceRow(FrameContext& frame) {
+    recordExitance(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.scene.charts, frame.skin);
+}
+
+// Both depend on the camera and work tile by tile, so one row holds them.
+void compositeRow(FrameContext& frame) {
+    const bool environment = frame.needs[Need::environment];
+    const glm::ivec2 picture(frame.settings->width, frame.settings->height);
+    const int step = kTileSamples / kSupersampling;
+    for (int y = 0; y < picture.y; y += step) {
+        for (int x = 0; x < picture.x; x += step) {
+            const glm::ivec2 origin(x, y);
+            const ViewTile tile{origin, glm::min(glm::ivec2(step), picture - origin), picture, kSupersampling};
+            const ViewImages view = recordView(*frame.device, *frame.commands, frame.scene.buffers, frame.camera, tile);
+            recordComposite(*frame.device, *frame.commands,
+                            {.scene = &frame.scene.buffers,
+                             .view = &view,
+                             .skin = frame.needs[Need::litSkin] ? &frame.skin : nullptr,
+                             .lights = &frame.lights,
+                             .environment = environment ? &frame.environmentMaps : nullptr,
+                             .visibility = environment ? &frame.visibility : nullptr,
+                             .environmentSettings = environment ? &frame.environmentSettings : nullptr},
+                            tile, frame.target);
+        }
+    }
+}
+
+}  // namespace
+
+void uploadFrameLights(FrameContext& frame) { uploadLights(frame); }
+
+const std::vector<PassRow>& passTable() {
+    using R = Resource;
+    static const std::vector<PassRow> table{
+        // name                     need               reads                       reads if written        writes
+        {"surface",                 Need::skin,        {},                         {},                     {R::surface},    surfaceRow},
+        {"light_maps",              Need::shadows,     {},                         {},                     {R::lightMaps},  lightMapsRow},
+        {"environment_visibility",  Need::environment, {},                         {R::surface},           {R::visibility}, environmentVisibilityRow},
+        {"irradiance",              Need::litSkin,     {R::surface},               {R::lightMaps, R::visibility}, {R::irradiance}, irradianceRow},
+        {"diffusion",               Need::litSkin,     {R::surface, R::irradiance}, {},                    {R::levels},     diffusionRow},
+        {"exitance",                Need::litSkin,     {R::levels},                {},                     {R::exitance},   exitanceRow},
+        {"composite",               Need::always,      {},                         {R::exitance, R::lightMaps, R::visibility}, {R::picture}, compositeRow},
+    };
+    return table;
+}
+
+}  // namespace cutis

@@ -1,0 +1,63 @@
+#include "renderer/frame/plan.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace cutis {
+namespace {
+
+std::string count(int n, const char* what) {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+}  // namespace
+
+Needs computeNeeds(const NeedsInput& input) {
+    Needs needs;
+    const auto set = [&](Need need, bool met, std::string reason) {
+        needs.met[static_cast<int>(need)] = met;
+        needs.reason[static_cast<int>(need)] = std::move(reason);
+    };
+    const bool lights = input.lightSamples > 0;
+    const bool lit = lights || input.environment;
+    const bool skin = input.skinDraws > 0;
+    set(Need::always, true, "every picture");
+    set(Need::skin, skin && lit,
+        !skin ? "nothing is skin" : !lit ? "no light" : count(input.skinDraws, "mesh") + " of skin");
+    set(Need::litSkin, skin && lit,
+        !skin ? "nothing is skin" : !lit ? "no light reaches the skin" : "skin is lit");
+    set(Need::lights, lights, lights ? count(input.lightSamples, "light sample") : "no lights");
+    set(Need::shadows, input.shadowedSamples > 0,
+        input.shadowedSamples > 0 ? count(input.shadowedSamples, "light sample") + " with shadows"
+                                  : "no light casts shadows");
+    const bool translucent = skin && input.translucentSkinMaterials > 0 && input.shadowedSamples > 0;
+    set(Need::translucency, translucent,
+        translucent                           ? count(input.translucentSkinMaterials, "translucent material")
+        : input.translucentSkinMaterials == 0 ? "no skin is translucent"
+                                              : "no light map to find thickness with");
+    set(Need::environment, input.environment, input.environment ? "an environment lights the scene" : "no environment");
+    return needs;
+}
+
+Plan makePlan(const Needs& needs) {
+    Plan plan;
+    std::set<Resource> written;
+    for (const PassRow& row : passTable()) {
+        if (!needs[row.need]) {
+            plan.leftOut.push_back({row.name, needs.why(row.need)});
+            continue;
+        }
+        for (Resource resource : row.reads) {
+            if (!written.count(resource)) {
+                throw std::logic_error(std::string("pass ") + row.name + " reads what no pass before it writes");
+            }
+        }
+        written.insert(row.writes.begin(), row.writes.end());
+        plan.rows.push_back(&row);
+        plan.reasons.push_back(needs.why(row.need));
+    }
+    return plan;
+}
+
+}  // namespace cutis

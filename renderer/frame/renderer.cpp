@@ -1,0 +1,236 @@
+#include "renderer/frame/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include "renderer/core/error.h"
+#include "renderer/frame/camera.h"
+#include "renderer/frame/frame.h"
+#include "renderer/gpu/device.h"
+#include "renderer/scene/environment_samples.h"
+#include "renderer/scene/light_samples.h"
+
+namespace cutis {
+
+void uploadFrameLights(FrameContext& frame);
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Texels as wide as two thirds of a pixel where the character stands, so that the picture resolves the atlas; never
+// finer than half the narrowest blur of skin that a close view could show.
+double wantedMmPerTexel(const Character& character, const ViewCameraMetrics& metrics) {
+    constexpr double kFinest = 0.08;
+    return std::max(kFinest, 0.67 * metrics.metresPerPixel(character.bounds.centre()) * 1000);
+}
+
+void prepareTarget(FrameContext& frame) {
+    const auto width = static_cast<std::uint32_t>(frame.settings->width);
+    const auto height = static_cast<std::uint32_t>(frame.settings->height);
+    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    frame.target.picture =
+        gpu::Image(*frame.device, {.name = "picture", .format = format, .width = width, .height = height});
+    frame.target.aovLayer.fill(-1);
+    int layers = 0;
+    for (int i = 0; i < kAovCount; ++i) {
+        const auto& wanted = frame.settings->aovs;
+        if (std::find(wanted.begin(), wanted.end(), kAovNames[i]) != wanted.end()) frame.target.aovLayer[i] = layers++;
+    }
+    if (layers > 0) {
+        frame.target.aovs = gpu::Image(*frame.device, {.name = "aovs", .format = format, .width = width,
+                                                       .height = height, .layers = static_cast<std::uint32_t>(layers)});
+    }
+}
+
+// Channels that an AOV has of the four that the shader writes.
+int aovChannels(int aov) {
+    constexpr int kChannels[kAovCount] = {3, 3, 3, 1, 3, 3, 3, 1, 1};
+    return kChannels[aov];
+}
+
+Picture toPicture(std::span<const float> rgba, int width, int height, int channels) {
+    Picture picture{width, height, channels, {}};
+    picture.values.resize(std::size_t(width) * height * channels);
+    for (std::size_t i = 0; i < std::size_t(width) * height; ++i) {
+        std::copy_n(&rgba[i * 4], channels, &picture.values[i * channels]);
+    }
+    return picture;
+}
+
+std::uint64_t countNonfinite(std::span<const float> values) {
+    return static_cast<std::uint64_t>(
+        std::count_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); }));
+}
+
+struct FrameReadbacks {
+    gpu::Readback picture, aovs, exitance;
+};
+
+void fillStats(const FrameContext& frame, const Plan& plan, const std::vector<gpu::PassTiming>& timings,
+               RenderStats& stats) {
+    stats.device = frame.device->info().name;
+    for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+        PassStats pass{plan.rows[i]->name, 0, 0, plan.reasons[i]};
+        for (const gpu::PassTiming& timing : timings) {
+            if (timing.name == pass.name) {
+                pass.runs = timing.runs;
+                pass.gpuMs = timing.milliseconds;
+            }
+        }
+        stats.passes.push_back(pass);
+    }
+    stats.leftOut = plan.leftOut;
+    if (!frame.needs[Need::translucency]) {
+        stats.leftOut.push_back({"translucency", frame.needs.why(Need::translucency)});
+    }
+    stats.atlasWidth = stats.atlasHeight = frame.atlas.size;
+    stats.atlasMmPerTexel = frame.atlas.mmPerTexel;
+    for (const Light& light : frame.input->rig.lights) stats.lights += light.enabled;
+    stats.lightSamples = static_cast<int>(frame.lightSamples.size());
+    stats.characters = static_cast<int>(frame.input->scene->characters.size());
+    stats.gaussians = frame.scene.gaussians;
+    stats.bytesGpu = frame.device->peakBytes();
+}
+
+void takePictures(const FrameContext& frame, const FrameReadbacks& readbacks, RenderResult& result) {
+    const int width = frame.settings->width, height = frame.settings->height;
+    const std::vector<float> picture = readbacks.picture.as<float>();
+    result.stats.nonfinite += countNonfinite(picture);
+    result.picture = Picture{width, height, 4, picture};
+    if (frame.target.aovs) {
+        const std::vector<float> all = readbacks.aovs.as<float>();
+        const std::size_t layerSize = std::size_t(width) * height * 4;
+        for (int i = 0; i < kAovCount; ++i) {
+            if (frame.target.aovLayer[i] < 0) continue;
+            const std::span layer = std::span(all).subspan(frame.target.aovLayer[i] * layerSize, layerSize);
+            result.stats.nonfinite += countNonfinite(layer);
+            result.aovs[kAovNames[i]] = toPicture(layer, width, height, aovChannels(i));
+        }
+    }
+    if (frame.skin.exitance) {
+        const std::vector<float> exitance = readbacks.exitance.as<float>();
+        result.stats.nonfinite += countNonfinite(exitance);
+        for (std::size_t i = 3; i < exitance.size(); i += 4) result.stats.atlasTexelsCovered += exitance[i] > 0;
+    }
+}
+
+// Positions on the device are relative to the scene's origin.
+void moveToWorld(RenderResult& result, const glm::dvec3& origin) {
+    const auto found = result.aovs.find("position");
+    if (found == result.aovs.end()) return;
+    Picture& position = found->second;
+    for (std::size_t i = 0; i < position.values.size() / 3; ++i) {
+        if (result.picture.values[i * 4 + 3] <= 0) continue;
+        for (int c = 0; c < 3; ++c) {
+            position.values[i * 3 + c] = static_cast<float>(position.values[i * 3 + c] + origin[c]);
+        }
+    }
+}
+
+void prepareEnvironment(FrameContext& frame, const RenderInput& input, EnvironmentSplit& split) {
+    const EnvironmentSettings& settings = input.rig.environment;
+    if (!input.environment || !settings.enabled || !(settings.intensity > 0)) return;
+    frame.environment = input.environment;
+    if (settings.shadowSamples > 0) {
+        split = splitEnvironment(*input.environment, settings.shadowSamples, settings.rotation, settings.intensity);
+        frame.environment = &split.residual;
+        frame.lightSamples.insert(frame.lightSamples.end(), split.samples.begin(), split.samples.end());
+    }
+}
+
+void uploadEnvironment(FrameContext& frame) {
+    const EnvironmentSettings& settings = frame.input->rig.environment;
+    const double angle = settings.rotation * 3.14159265358979323846 / 180;
+    const std::vector<shared::EnvironmentSettingsData> data{{static_cast<float>(std::cos(angle)),
+                                                             static_cast<float>(std::sin(angle)),
+                                                             static_cast<float>(settings.intensity), 0}};
+    frame.environmentSettings =
+        gpu::Buffer(*frame.device, {.name = "environment settings", .bytes = sizeof(data[0])});
+    frame.commands->upload(frame.environmentSettings, data);
+}
+
+}  // namespace
+
+RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const RenderSettings& settings) {
+    const Clock::time_point start = Clock::now();
+    device.resetPeak();
+    const Scene& scene = *input.scene;
+    FrameContext frame;
+    frame.device = &device;
+    frame.input = &input;
+    frame.settings = &settings;
+    frame.geometry = flattenScene(scene);
+    frame.camera = viewCamera(input.camera, frame.geometry.origin, frame.geometry.bounds,
+                              {settings.width, settings.height});
+    const ViewCameraMetrics metrics(input.camera, {settings.width, settings.height});
+    AtlasOptions atlasOptions{.size = settings.irradianceSize};
+    for (const Character& character : scene.characters) {
+        atlasOptions.mmPerTexelWanted.push_back(wantedMmPerTexel(character, metrics));
+    }
+    frame.atlas = layOutAtlas(scene, frame.geometry, atlasOptions);
+    for (const ReceiverGroup& group : frame.geometry.receiverGroups) frame.groups.push_back(group.bounds);
+
+    frame.lightSamples = sampleLights(input.rig);
+    EnvironmentSplit split;
+    prepareEnvironment(frame, input, split);
+
+    NeedsInput needs;
+    needs.prune = settings.prune;
+    needs.environment = frame.environment != nullptr;
+    needs.lightSamples = static_cast<int>(frame.lightSamples.size());
+    for (const LightSample& sample : frame.lightSamples) needs.shadowedSamples += sample.shadow;
+    std::vector<bool> seen(scene.materials.size(), false);
+    for (const GeometryDraw& draw : frame.geometry.draws) {
+        needs.skinDraws += draw.skin;
+        if (draw.skin && !seen[draw.material] && scene.materials[draw.material].skin->translucency) {
+            ++needs.translucentSkinMaterials;
+        }
+        seen[draw.material] = true;
+    }
+    frame.needs = computeNeeds(needs);
+    const Plan plan = makePlan(frame.needs);
+
+    RenderResult result;
+    {
+        gpu::Commands commands = device.begin();
+        frame.commands = &commands;
+        frame.scene = uploadScene(device, commands, scene, frame.geometry, frame.atlas, settings.gaussians);
+        commands.submitAndWait();
+    }
+    if (frame.needs[Need::environment]) {
+        frame.environmentMaps = prefilterEnvironment(device, *frame.environment, frame.scene.skins);
+        frame.clusters = clusterEnvironment(*frame.environment);
+    }
+    result.stats.loadMs = millisecondsSince(start);
+
+    const Clock::time_point frameStart = Clock::now();
+    gpu::Commands commands = device.begin();
+    frame.commands = &commands;
+    uploadFrameLights(frame);
+    if (frame.needs[Need::environment]) uploadEnvironment(frame);
+    prepareTarget(frame);
+    for (const PassRow* row : plan.rows) {
+        commands.beginPass(row->name);
+        row->record(frame);
+        commands.endPass();
+    }
+    FrameReadbacks readbacks;
+    readbacks.picture = commands.readback(frame.target.picture);
+    if (frame.target.aovs) readbacks.aovs = commands.readback(frame.target.aovs);
+    if (frame.skin.exitance) readbacks.exitance = commands.readback(frame.skin.exitance);
+    commands.submitAndWait();
+    result.stats.frameMs = millisecondsSince(frameStart);
+    fillStats(frame, plan, commands.timings(), result.stats);
+    takePictures(frame, readbacks, result);
+    moveToWorld(result, frame.geometry.origin);
+    return result;
+}
+
+}  // namespace cutis

@@ -1,0 +1,125 @@
+#include "renderer/frame/textures.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <tuple>
+
+#include "renderer/core/error.h"
+#include "renderer/gpu/device.h"
+#include "shaders/shared/scene.h"
+
+namespace cutis {
+namespace {
+
+struct GroupKey {
+    int width, height;
+    TexelFormat format;
+    bool srgb;
+    Sampler sampler;
+    auto tie() const {
+        return std::tuple(width, height, format, srgb, sampler.wrapU, sampler.wrapV, sampler.nearest, sampler.mipmapped);
+    }
+    bool operator<(const GroupKey& other) const { return tie() < other.tie(); }
+};
+
+// How far sizes are rounded so that more textures share an array: not at all, to powers of two, to one size.
+enum class Rounding { none, powerOfTwo, largest };
+
+int roundedSize(int size, Rounding rounding, int largest) {
+    if (rounding == Rounding::none) return size;
+    if (rounding == Rounding::largest) return largest;
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(size)));
+}
+
+std::map<GroupKey, std::vector<int>> groupTextures(const Scene& scene, const std::vector<bool>& used,
+                                                   Rounding rounding) {
+    int largest = 1;
+    for (const Image& image : scene.images) largest = std::max({largest, image.width, image.height});
+    std::map<GroupKey, std::vector<int>> groups;
+    for (std::size_t t = 0; t < scene.textures.size(); ++t) {
+        if (!used[t]) continue;
+        const Texture& texture = scene.textures[t];
+        const Image& image = scene.images[texture.image];
+        groups[{roundedSize(image.width, rounding, largest), roundedSize(image.height, rounding, largest), image.format,
+                texture.srgb, texture.sampler}]
+            .push_back(static_cast<int>(t));
+    }
+    return groups;
+}
+
+VkFormat formatOf(const GroupKey& key) {
+    if (key.format == TexelFormat::rgba16f) return VK_FORMAT_R16G16B16A16_SFLOAT;
+    return key.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
+}
+
+VkSamplerAddressMode addressMode(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::mirroredRepeat: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+        case Wrap::clampToEdge: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        case Wrap::repeat: break;
+    }
+    return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+}
+
+// Nearest texels of another size: only reached when a scene has more kinds of textures than shaders have samplers.
+std::vector<std::byte> resample(const Image& image, int width, int height) {
+    const std::size_t texel = image.format == TexelFormat::rgba8 ? 4 : 8;
+    std::vector<std::byte> result(texel * width * height);
+    for (int y = 0; y < height; ++y) {
+        const std::size_t sourceRow = std::size_t(y) * image.height / height;
+        for (int x = 0; x < width; ++x) {
+            const std::size_t source = sourceRow * image.width + std::size_t(x) * image.width / width;
+            std::memcpy(&result[(std::size_t(y) * width + x) * texel], &image.texels[source * texel], texel);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+TextureArrays uploadTextures(gpu::Device& device, gpu::Commands& commands, const Scene& scene,
+                             const std::vector<bool>& used) {
+    TextureArrays arrays;
+    arrays.places.resize(scene.textures.size());
+    std::map<GroupKey, std::vector<int>> groups;
+    for (Rounding rounding : {Rounding::none, Rounding::powerOfTwo, Rounding::largest}) {
+        groups = groupTextures(scene, used, rounding);
+        if (groups.size() <= shared::MAX_TEXTURE_GROUPS) break;
+    }
+    if (groups.size() > shared::MAX_TEXTURE_GROUPS) {
+        throw Error("too many kinds of textures",
+                    std::to_string(groups.size()) + " combinations of format and sampler, the limit is " +
+                        std::to_string(shared::MAX_TEXTURE_GROUPS), scene.file.string());
+    }
+    for (const auto& [key, textures] : groups) {
+        const auto width = static_cast<std::uint32_t>(key.width), height = static_cast<std::uint32_t>(key.height);
+        gpu::Image array(device,
+                         {.name = "material textures", .format = formatOf(key), .width = width, .height = height,
+                          .layers = static_cast<std::uint32_t>(textures.size()),
+                          .mips = key.sampler.mipmapped ? gpu::fullMipCount(width, height) : 1,
+                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                   VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+        for (std::size_t layer = 0; layer < textures.size(); ++layer) {
+            const Image& image = scene.images[scene.textures[textures[layer]].image];
+            const gpu::ImageView target = array.layer(static_cast<std::uint32_t>(layer)).mip(0);
+            if (image.width == key.width && image.height == key.height) {
+                commands.upload(target, image.texels);
+            } else {
+                commands.upload(target, resample(image, key.width, key.height));
+            }
+            arrays.places[textures[layer]] = {static_cast<int>(arrays.images.size()), static_cast<int>(layer)};
+        }
+        if (key.sampler.mipmapped) commands.generateMips(array);
+        const VkFilter filter = key.sampler.nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
+        arrays.sampled.push_back(gpu::sampled(
+            array, device.sampler({.filter = filter, .u = addressMode(key.sampler.wrapU),
+                                   .v = addressMode(key.sampler.wrapV), .anisotropy = key.sampler.nearest ? 1.f : 4.f})));
+        arrays.images.push_back(std::move(array));
+    }
+    return arrays;
+}
+
+}  // namespace cutis

@@ -1,0 +1,49 @@
+// View and composite: what the camera sees, then its colour. Nothing else depends on the camera.
+// Shaders: view.vert, view.frag, composite.comp.
+#pragma once
+
+#include <array>
+
+#include "renderer/passes/environment.h"
+#include "renderer/passes/resources.h"
+
+namespace cutis {
+
+inline constexpr int kAovCount = 9;  // in the order of kAovNames and of AOV_ in composite.comp
+
+struct PictureTarget {
+    gpu::Image picture;  // RGBA32F
+    gpu::Image aovs;     // a layer for each wanted AOV; empty when none is
+    std::array<int, kAovCount> aovLayer;  // -1: not wanted
+};
+
+// A part of the picture, in pixels, with `supersampling`² samples a pixel.
+struct ViewTile {
+    glm::ivec2 origin{0}, size{0}, pictureSize{0};
+    int supersampling = 2;
+};
+
+// Filled by recordView: which triangles the samples of a tile see, nearest layer first.
+struct ViewImages {
+    gpu::Image triangles;
+    int layers = 1;
+    gpu::Buffer camera;
+};
+
+ViewImages recordView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                      const shared::ViewCamera& camera, const ViewTile& tile);
+
+struct CompositeInput {
+    const SceneBuffers* scene;
+    const ViewImages* view;
+    const SkinLight* skin = nullptr;  // nullptr: no skin
+    const LightMaps* lights;          // without depth: no shadows
+    const EnvironmentMaps* environment = nullptr;
+    const EnvironmentVisibility* visibility = nullptr;  // with environment
+    const gpu::Buffer* environmentSettings = nullptr;   // with environment
+};
+
+void recordComposite(gpu::Device& device, gpu::Commands& commands, const CompositeInput& input, const ViewTile& tile,
+                     const PictureTarget& target);
+
+}  // namespace cutis

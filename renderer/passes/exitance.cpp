@@ -1,0 +1,40 @@
+#include "renderer/passes/exitance.h"
+
+#include "renderer/gpu/device.h"
+
+namespace cutis {
+namespace {
+
+struct SumPush {
+    glm::uvec4 rect;  // texels
+    std::uint32_t firstGaussian, gaussianCount;
+    float mmPerUnit;
+};
+
+}  // namespace
+
+void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                    const SurfaceImages& surface, std::span<const ChartRange> charts, SkinLight& light) {
+    const auto size = static_cast<std::uint32_t>(surface.size);
+    light.exitance = gpu::Image(
+        device, {.name = "exitance", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
+    gpu::Bindings bindings{{"levels", bilinear(device, light.levels)},
+                           {"GaussianBuffer", scene.gaussians},
+                           {"exitance", light.exitance}};
+    if (light.entry) {
+        bindings.push_back({"entry", light.entry});
+        bindings.push_back({"incident", light.incident});
+        bindings.push_back({"stretch", surface.stretch});
+    }
+    // Texels between charts must read as uncovered.
+    commands.clear(light.exitance);
+    const gpu::Program& program = device.program(light.entry ? "exitance.comp+TRANSLUCENCY" : "exitance.comp");
+    for (const ChartRange& chart : charts) {
+        commands.dispatch(program, bindings,
+                          SumPush{chart.rect, chart.firstGaussian,
+                                  static_cast<std::uint32_t>(chart.profile.gaussians.size()), chart.mmPerUnit},
+                          gpu::groupsFor(program, chart.rect.z, chart.rect.w));
+    }
+}
+
+}  // namespace cutis

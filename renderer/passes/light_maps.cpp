@@ -1,0 +1,95 @@
+#include "renderer/passes/light_maps.h"
+
+#include <algorithm>
+#include <string>
+
+#include "renderer/gpu/device.h"
+#include "renderer/passes/light_views.h"
+
+namespace cutis {
+namespace {
+
+struct MapPush {
+    std::uint32_t view;
+    float texelsToUnit;
+    std::uint32_t material;
+};
+
+// Draw calls of one kind: skin that takes light in, whatever else stops it, or one masked material.
+struct Batch {
+    bool skin = false, masked = false;
+    std::uint32_t material = 0;  // of a masked batch
+    std::vector<gpu::DrawCall> calls;
+};
+
+// What reaches the view. Neighbouring ranges of one kind become one call.
+std::vector<Batch> batchesFor(const SceneBuffers& scene, const shared::LightView& view, bool entries) {
+    std::vector<Batch> batches;
+    for (const DrawRange& range : scene.ranges) {
+        if (!range.castsShadow || !reaches(view, range.boundsMin, range.boundsMax)) continue;
+        const bool skin = entries && range.skin;
+        Batch* batch = nullptr;
+        for (Batch& known : batches) {
+            if (known.skin == skin && known.masked == range.masked &&
+                (!range.masked || known.material == range.material)) {
+                batch = &known;
+            }
+        }
+        if (!batch) batch = &batches.emplace_back(Batch{skin, range.masked, range.material, {}});
+        std::vector<gpu::DrawCall>& calls = batch->calls;
+        if (!calls.empty() && calls.back().first + calls.back().count == range.firstIndex) {
+            calls.back().count += range.indexCount;
+        } else {
+            calls.push_back({.first = range.firstIndex, .count = range.indexCount});
+        }
+    }
+    return batches;
+}
+
+void drawBatch(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene, const LightMapTargets& targets,
+               const gpu::RasterState& state, std::uint32_t view, const Batch& batch) {
+    std::string vertex = "light_map.vert", fragment = "light_map.frag";
+    gpu::Bindings bindings{{"PositionBuffer", scene.positions}, {"LightViewBuffer", *targets.viewBuffer}};
+    if (targets.entry) fragment += "+ENTRY";
+    if (batch.skin) {
+        vertex += "+SKIN";
+        fragment += "+SKIN";
+        bindings.push_back({"AtlasVertexBuffer", scene.atlasVertices});
+    }
+    if (batch.masked) {
+        vertex += "+MASKED";
+        fragment += "+MASKED";
+        bindings.push_back({"AttributeBuffer", scene.attributes});
+        bindings.push_back({"MaterialBuffer", scene.materials});
+        bindings.push_back({"materialTextures", scene.materialTextures});
+    }
+    std::vector<std::string> shaders{vertex};
+    if (targets.entry || batch.masked) shaders.push_back(fragment);
+    commands.draw(device.program(shaders, state), bindings,
+                  MapPush{view, 1.0f / static_cast<float>(std::max(targets.atlasSize, 1)), batch.material}, batch.calls,
+                  &scene.indices);
+}
+
+}  // namespace
+
+void recordLightMaps(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                     const LightMapTargets& targets) {
+    const bool translucent = targets.entry != nullptr;
+    gpu::RasterState state;
+    state.depthFormat = targets.depth->desc().format;
+    state.depthClamp = true;
+    if (translucent) state.colorFormats = {VK_FORMAT_R32_UINT};
+    for (std::uint32_t v = targets.firstView; v < targets.firstView + targets.viewCount; ++v) {
+        const shared::LightView& view = targets.views[v];
+        gpu::RenderTargets render;
+        render.depth = {targets.depth->layer(view.layer), gpu::ClearValue::depth(1)};
+        if (translucent) render.colors = {{targets.entry->layer(view.layer), gpu::ClearValue::integers(0xffffffffu)}};
+        commands.beginRendering(render);
+        for (const Batch& batch : batchesFor(scene, view, translucent)) {
+            drawBatch(device, commands, scene, targets, state, v, batch);
+        }
+        commands.endRendering();
+    }
+}
+
+}  // namespace cutis

@@ -1,0 +1,91 @@
+// What passes read and write: the resources of a frame, each with the pass that fills it.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "renderer/gpu/buffer.h"
+#include "renderer/gpu/commands.h"
+#include "renderer/gpu/image.h"
+#include "renderer/skin/profile.h"
+#include "shaders/shared/scene.h"
+
+namespace cutis {
+
+// A run of triangles drawn with one call.
+struct DrawRange {
+    std::uint32_t firstIndex = 0, indexCount = 0;
+    std::uint32_t material = 0;
+    bool skin = false;              // takes light in
+    bool castsShadow = true;
+    bool masked = false;            // its material's alpha cuts it out (for lights, blended ones too)
+    bool blended = false;           // seen through
+    bool doubleSided = false;
+    glm::vec3 boundsMin{0}, boundsMax{0};  // metres from the scene's origin
+};
+
+// The scene on the device, uploaded once (frame/upload.cpp).
+struct SceneBuffers {
+    gpu::Buffer indices, positions, attributes, atlasVertices, triangleDraws, draws, materials;
+    gpu::Buffer albedoTable;                     // rows of ρ_dt, one a distinct skin roughness
+    gpu::Buffer gaussians;                       // of all charts
+    gpu::Buffer skinTriangles, borderTriangles;  // triangle numbers
+    std::uint32_t skinTriangleCount = 0, borderTriangleCount = 0;
+    std::vector<gpu::Image> textureArrays;
+    std::vector<gpu::SampledImage> materialTextures;  // MAX_TEXTURE_GROUPS of them, or none
+    std::vector<DrawRange> ranges;
+    bool textured() const { return !materialTextures.empty(); }
+};
+
+struct ChartRange {
+    glm::uvec4 rect{0};
+    std::uint32_t firstGaussian = 0;
+    skin::Profile profile;  // in mm², scaled and reduced as the frame uses it
+    float mmPerUnit = 1000;
+};
+
+// Filled by recordSurface.
+struct SurfaceImages {
+    int size = 0;
+    gpu::Image triangles, position, normal, albedo, stretch;
+};
+
+// Filled by recordLightMaps. Layer = LightView::layer.
+struct LightMaps {
+    int size = 0;
+    gpu::Buffer samples, views;
+    std::vector<shared::LightView> viewList;  // as uploaded
+    std::uint32_t sampleCount = 0;
+    gpu::Image depth;
+    gpu::Image entry;  // only with translucency
+};
+
+// Filled by recordEnvironmentVisibility and recordEnvironmentOcclusion.
+struct EnvironmentVisibility {
+    int directions = 0;
+    gpu::Image visibility;          // half the atlas' size, a layer for each 32 directions
+    gpu::Image occlusion, openSky;  // half the atlas' size
+    gpu::Buffer vertexVisibility, probes;
+};
+
+// Filled by recordIrradiance, recordDiffusion and recordExitance.
+struct SkinLight {
+    gpu::Image irradiance;  // E' and the island
+    gpu::Image incident;    // E and the thickness
+    gpu::Image entry;       // only with translucency
+    gpu::Image levels;      // a layer for each Gaussian
+    gpu::Image scratch;     // between the two directions of a blur
+    gpu::Image exitance;
+};
+
+// Texels as they are, clamped at the edge.
+gpu::SampledImage nearest(gpu::Device& device, const gpu::Image& image);
+// Between texels' centres: bilinear, clamped at the edge.
+gpu::SampledImage bilinear(gpu::Device& device, const gpu::Image& image);
+// The same between mip levels too.
+gpu::SampledImage trilinear(gpu::Device& device, const gpu::Image& image);
+// For comparing depths: bilinear over four comparisons, lit outside the map.
+gpu::SampledImage depthComparison(gpu::Device& device, const gpu::Image& image);
+
+}  // namespace cutis

@@ -1,0 +1,147 @@
+#version 460
+// One direction of one Gaussian of the blur chain: takes the texture from variance v_{k-1} to v_k along one column of
+// the Cholesky factor of the texel's covariance (DESIGN §1.4). Two dispatches, axis 0 then axis 1, make one level.
+//
+// A normalised convolution within the texel's own UV island: other texels have weight 0. The kernel is a sampled
+// Gaussian whose discrete variance is corrected to be the continuous one exactly, so a chain of them has the
+// profile's second moment however coarse the texels.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/scene.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = 0) uniform texture2D source;   // rgb; a: island, 0 where uncovered
+layout(binding = 1) uniform texture2D stretch;  // a, b, c in texels per millimetre; w: island
+layout(binding = 2, rgba32f) writeonly uniform image2D target;
+
+layout(push_constant, scalar) uniform Push {
+    uvec4 rect;      // of the chart: x, y, width, height in texels
+    float variance;  // v_k - v_{k-1} in mm²
+    float previous;  // v_{k-1} in mm²: how smooth the source is already
+    int axis;        // 0: first column (a, b), 1: second column (0, c)
+} push;
+
+const int kMaxTaps = 12;  // on either side
+const float kReach = 3.5;  // standard deviations
+
+// A symmetric kernel of 2·count + 1 taps, `step` texels apart along the axis on which the direction is longest.
+struct Kernel {
+    int count;
+    int step;
+    float inverse;     // 1 / (2σ²) in taps
+    float correction;  // moved from the centre to each first neighbour
+    float sum;
+};
+
+float tapWeight(Kernel k, int i) {
+    float w = exp(-float(i * i) * k.inverse) / k.sum;
+    return i == 0 ? w - 2.0 * k.correction : i == 1 ? w + k.correction : w;
+}
+
+// sigma: standard deviation in texels; smoothness: that of the source.
+Kernel makeKernel(float sigma, float smoothness) {
+    Kernel k;
+    // A source that is smooth over σ_s can be sampled every σ_s: what would alias is below exp(-2π²).
+    k.step = max(int(smoothness), 1);
+    float taps = sigma / float(k.step);
+    if (taps * kReach > float(kMaxTaps)) {
+        k.step = int(ceil(sigma * kReach / float(kMaxTaps)));
+        taps = sigma / float(k.step);
+    }
+    k.count = clamp(int(ceil(taps * kReach)), 1, kMaxTaps);
+    k.inverse = 0.5 / max(taps * taps, 1e-6);
+    float sum = 1.0, moment = 0.0;
+    for (int i = 1; i <= k.count; ++i) {
+        float w = 2.0 * exp(-float(i * i) * k.inverse);
+        sum += w;
+        moment += w * float(i * i);
+    }
+    k.sum = sum;
+    k.correction = 0.5 * (taps * taps - moment / sum);
+    return k;
+}
+
+// Variance that linear interpolation between texels adds across the direction of the taps.
+float interpolationVariance(Kernel k, float slope) {
+    float variance = 0.0;
+    for (int i = 1; i <= k.count; ++i) {
+        float f = fract(float(i * k.step) * slope);
+        variance += 2.0 * tapWeight(k, i) * f * (1.0 - f);
+    }
+    return variance;
+}
+
+vec4 accumulated;
+
+void addTap(ivec2 at, float weight, float island) {
+    ivec2 low = ivec2(push.rect.xy), high = low + ivec2(push.rect.zw);
+    if (any(lessThan(at, low)) || any(greaterThanEqual(at, high))) return;
+    vec4 value = texelFetch(source, at, 0);
+    if (value.a == island) accumulated += vec4(value.rgb, 1.0) * weight;
+}
+
+void main() {
+    if (any(greaterThanEqual(gl_GlobalInvocationID.xy, push.rect.zw))) return;
+    ivec2 texel = ivec2(push.rect.xy + gl_GlobalInvocationID.xy);
+    vec4 factor = texelFetch(stretch, texel, 0);
+    if (factor.w == 0.0) {
+        imageStore(target, texel, vec4(0.0));
+        return;
+    }
+    float sigma = sqrt(push.variance), smoothness = sqrt(push.previous);
+    vec2 first = factor.xy;
+    // The first column is skew: its taps fall between texels. What interpolation adds to the variance there is taken
+    // off again: from the second column where it lies along v, from the first where it lies along u.
+    bool steep = abs(first.y) > abs(first.x);
+    float slope = steep ? first.x / first.y : first.y / first.x;
+    float length1 = max(abs(first.x), abs(first.y));
+    float sigma1 = length1 * sigma;
+    float sigma2 = factor.z * sigma;
+    if (abs(slope) > 1e-3) {
+        Kernel k = makeKernel(sigma1, length1 * smoothness);
+        float excess = interpolationVariance(k, slope);
+        if (!steep) {
+            sigma2 = sqrt(max(sigma2 * sigma2 - excess, 0.0));
+        } else {
+            // Σ_uu shrinks by the excess; the factor of what is left keeps Σ_uv and Σ_vv.
+            float a = sqrt(max(first.x * first.x * push.variance - excess, 1e-8));
+            float r = (first.y * first.y + factor.z * factor.z) * push.variance;
+            float b = min(abs(first.x * first.y) * push.variance / a, sqrt(r));
+            sigma1 = b;
+            slope = sign(slope) * a / max(b, 1e-6);
+            sigma2 = sqrt(max(r - b * b, 0.0));
+        }
+    }
+    accumulated = vec4(0.0);
+    if (push.axis == 0) {
+        Kernel k = makeKernel(sigma1, length1 * smoothness);
+        addTap(texel, tapWeight(k, 0), factor.w);
+        for (int i = 1; i <= k.count; ++i) {
+            float weight = tapWeight(k, i);
+            int along = i * k.step;
+            float across = float(along) * slope;
+            int cell = int(floor(across));
+            float f = across - float(cell);
+            for (int side = -1; side <= 1; side += 2) {
+                ivec2 near = side * (steep ? ivec2(cell, along) : ivec2(along, cell));
+                ivec2 next = side * (steep ? ivec2(1, 0) : ivec2(0, 1));
+                addTap(texel + near, weight * (1.0 - f), factor.w);
+                if (f > 0.0) addTap(texel + near + next, weight * f, factor.w);
+            }
+        }
+    } else {
+        Kernel k = makeKernel(sigma2, factor.z * smoothness);
+        addTap(texel, tapWeight(k, 0), factor.w);
+        for (int i = 1; i <= k.count; ++i) {
+            float weight = tapWeight(k, i);
+            addTap(texel + ivec2(0, i * k.step), weight, factor.w);
+            addTap(texel - ivec2(0, i * k.step), weight, factor.w);
+        }
+    }
+    // The centre tap belongs to the island, so there is weight to divide by, unless it was corrected away.
+    vec4 own = texelFetch(source, texel, 0);
+    vec3 value = accumulated.a > 1e-6 ? accumulated.rgb / accumulated.a : own.rgb;
+    imageStore(target, texel, vec4(value, factor.w));
+}

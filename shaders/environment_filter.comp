@@ -1,0 +1,41 @@
+#version 460
+// The next level of the radiance cube: the level above it convolved with a lobe exp((cosθ - 1)/σ²) around each texel.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/environment.h"
+#include "lib/sampling.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = 0) uniform samplerCube source;  // one level
+layout(binding = 1, rgba32f) writeonly uniform image2DArray target;  // six faces
+
+layout(push_constant, scalar) uniform Push {
+    float sigma;  // radians
+    float step;   // radians between samples: a texel of the source
+} push;
+
+void main() {
+    uvec3 at = gl_GlobalInvocationID;
+    uint size = uint(imageSize(target).x);
+    if (at.x >= size || at.y >= size) return;
+    vec3 n = normalize(cubeDirection(cubeFace(at.z), cubeTexelCentre(at.xy, size)));
+    mat3 frame = frameAlong(n, vec3(0.0));
+    float reach = min(3.5 * push.sigma, 3.1);
+    int count = int(reach / push.step);
+    vec3 sum = vec3(0.0);
+    float total = 0.0;
+    for (int j = -count; j <= count; ++j) {
+        for (int i = -count; i <= count; ++i) {
+            vec2 p = vec2(i, j) * push.step;  // polar coordinates around n, laid out flat
+            float angle = length(p);
+            if (angle > reach) continue;
+            float stretch = angle > 1e-4 ? sin(angle) / angle : 1.0;  // area of the sphere per area of the layout
+            float weight = exp((cos(angle) - 1.0) / (push.sigma * push.sigma)) * stretch;
+            vec3 d = frame * vec3(p * stretch, cos(angle));
+            sum += weight * textureLod(source, d, 0.0).rgb;
+            total += weight;
+        }
+    }
+    imageStore(target, ivec3(at), vec4(sum / total, 1.0));
+}

@@ -1,0 +1,41 @@
+#version 460
+// Irradiance of the environment for every normal: the sum over its clusters. With MATTE, the part of it that skin of one
+// roughness reflects specularly (DESIGN §1.1).
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// features: MATTE
+#include "shared/environment.h"
+#include "lib/sampling.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = 0, scalar) readonly buffer SourceBuffer { EnvironmentSource sources[]; };
+layout(binding = 1, rgba32f) writeonly uniform image2DArray target;  // six faces
+#ifdef MATTE
+layout(binding = 2, scalar) readonly buffer AlbedoTableBuffer { float albedoTable[]; };
+#define ALBEDO_TABLE(i) albedoTable[i]
+#include "lib/skin_specular.glsl"
+#endif
+
+layout(push_constant, scalar) uniform Push {
+    uint sourceCount;
+    float largestAlbedo;  // 1/s: what ρ_dt is cut off at
+} push;
+
+void main() {
+    uvec3 at = gl_GlobalInvocationID;
+    uint size = uint(imageSize(target).x);
+    if (at.x >= size || at.y >= size) return;
+    vec3 n = normalize(cubeDirection(cubeFace(at.z), cubeTexelCentre(at.xy, size)));
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < push.sourceCount; ++i) {
+        EnvironmentSource source = sources[i];
+        float cosine = dot(n, source.mean);
+        if (cosine <= 0.0) continue;
+#ifdef MATTE
+        cosine *= min(directionalAlbedo(cosine, 0u), push.largestAlbedo);
+#endif
+        sum += source.flux * cosine;
+    }
+    imageStore(target, ivec3(at), vec4(sum, 1.0));
+}

@@ -1,0 +1,17 @@
+// Environment visibility is kept at half the atlas resolution: the texel that stands for a block of 2 × 2.
+#ifndef CUTIS_ENVIRONMENT_PROBE_GLSL
+#define CUTIS_ENVIRONMENT_PROBE_GLSL
+
+#ifndef VERTICES
+// The first covered texel of the block, or (-1, -1). `position` is declared by the includer.
+ivec2 probeTexel(ivec2 probe) {
+    ivec2 size = textureSize(position, 0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = probe * 2 + ivec2(i & 1, i >> 1);
+        if (all(lessThan(texel, size)) && texelFetch(position, texel, 0).w > 0.0) return texel;
+    }
+    return ivec2(-1);
+}
+#endif
+
+#endif

@@ -1,0 +1,108 @@
+// Visibility of a light sample from its light maps. The includer declares
+//   LightView lightViews[], sampler2DArrayShadow lightDepthCompare, sampler2DArray lightDepth.
+#ifndef CUTIS_LIGHT_MAPS_GLSL
+#define CUTIS_LIGHT_MAPS_GLSL
+
+struct LightMapPoint {
+    vec3 uvDepth;       // place in the map and depth to compare
+    vec2 slope;         // change of depth with u and v over the receiver's plane
+    float texel;        // width of a texel of the map there, metres
+    float distance;     // along the view's axis, metres
+    bool inside;
+};
+
+float lightMapDistance(LightView view, float depth) {
+    return view.depthToDistance.y == 0.0 ? view.depthToDistance.x + view.depthToDistance.z * depth
+                                         : view.depthToDistance.x / (view.depthToDistance.y + view.depthToDistance.z * depth);
+}
+
+vec3 projectToLightMap(LightView view, vec3 p) {
+    vec4 clip = view.worldToClip * vec4(p, 1.0);
+    return clip.w > 0.0 ? vec3(clip.xy / clip.w * 0.5 + 0.5, clip.z / clip.w) : vec3(-1.0);
+}
+
+// p: point to light; n: its unit normal, towards the light's side; l: unit direction to the light.
+LightMapPoint locateInLightMap(LightView view, vec3 p, vec3 n, vec3 l) {
+    LightMapPoint at;
+    vec3 here = projectToLightMap(view, p);
+    at.distance = lightMapDistance(view, here.z);
+    at.texel = view.texelSize * (view.depthToDistance.y == 0.0 ? 1.0 : at.distance);
+    // Moving the receiver along its normal by the height that a slanted surface gains over one texel removes acne
+    // without detaching shadows where light is perpendicular.
+    float cosine = clamp(dot(n, l), 0.0, 1.0);
+    vec3 lifted = p + n * (at.texel * (0.25 + 1.5 * sqrt(1.0 - cosine * cosine)));
+    at.uvDepth = projectToLightMap(view, lifted);
+    at.inside = all(greaterThanEqual(at.uvDepth.xy, vec2(0.0))) && all(lessThanEqual(at.uvDepth.xy, vec2(1.0))) &&
+                at.uvDepth.z > 0.0;
+    // The receiver's plane in map space, from two tangents; bounded, since it is vertical at the terminator.
+    vec3 t, b;
+    orthonormalBasis(n, t, b);
+    vec3 dt = projectToLightMap(view, lifted + t * at.texel) - at.uvDepth;
+    vec3 db = projectToLightMap(view, lifted + b * at.texel) - at.uvDepth;
+    float det = dt.x * db.y - dt.y * db.x;
+    float scale = length(dt.xy) * length(db.xy);
+    if (abs(det) > 0.05 * scale && scale > 0.0) {
+        at.slope = vec2(dt.z * db.y - db.z * dt.y, db.z * dt.x - dt.z * db.x) / det;
+    } else {
+        at.slope = vec2(0.0);
+    }
+    return at;
+}
+
+float compareLightMap(uint layer, LightMapPoint at, vec2 offset) {
+    // A plane that falls towards the light is followed; one that rises is too, so that the receiver never shadows
+    // itself within the filter.
+    float depth = at.uvDepth.z + dot(at.slope, offset);
+    return texture(lightDepthCompare, vec4(at.uvDepth.xy + offset, float(layer), clamp(depth, 0.0, 1.0)));
+}
+
+// i-th of n points that fill the unit disc evenly (Vogel 1979).
+vec2 vogelDisc(int i, int n) {
+    float r = sqrt((float(i) + 0.5) / float(n)), phi = float(i) * 2.399963229728653;
+    return r * vec2(cos(phi), sin(phi));
+}
+
+// The lit share of a light sample at p, in [0,1]. `extent` is the radius of the source in metres at `lightDistance`
+// metres (directional: radians and 1): the blocker's distance makes the penumbra (Fernando 2005).
+float lightMapVisibility(LightView view, vec3 p, vec3 n, vec3 l, float extent, float lightDistance, bool directional) {
+    LightMapPoint at = locateInLightMap(view, p, n, l);
+    if (!at.inside) return 1.0;
+    vec2 texel = 1.0 / vec2(textureSize(lightDepth, 0).xy);
+    float radius = 0.0;  // of the filter, in metres at the receiver
+    if (extent > 0.0) {
+        const int kBlockers = 8;
+        // No blocker nearer to the light than the map's near plane can widen the penumbra further than this.
+        float nearest = lightMapDistance(view, 0.0);
+        float reach = directional ? extent * max(at.distance - nearest, 0.0)
+                                  : extent * max(at.distance - nearest, 0.0) / max(at.distance, 1e-12);
+        float reachTexels = clamp(reach / at.texel, 1.0, 48.0);
+        float sum = 0.0, count = 0.0;
+        for (int i = 0; i < kBlockers; ++i) {
+            vec2 offset = vogelDisc(i, kBlockers) * reachTexels * texel;
+            float depth = texture(lightDepth, vec3(at.uvDepth.xy + offset, float(view.layer))).x;
+            if (depth < at.uvDepth.z + dot(at.slope, offset)) {
+                sum += lightMapDistance(view, depth);
+                count += 1.0;
+            }
+        }
+        if (count == 0.0) return compareLightMap(view.layer, at, vec2(0.0));
+        float blocker = sum / count, gap = max(at.distance - blocker, 0.0);
+        radius = directional ? extent * gap : extent * gap / max(blocker, 1e-6);
+        // A light at finite distance throws the receiver's penumbra back onto the map's plane at the receiver.
+    }
+    float filterTexels = clamp(radius / at.texel, 0.0, 48.0);
+    if (filterTexels <= 1.0) {
+        // Four bilinear comparisons: a tent of three texels.
+        float lit = 0.0;
+        for (int i = 0; i < 4; ++i) {
+            lit += compareLightMap(view.layer, at, (vec2(i & 1, i >> 1) - 0.5) * texel);
+        }
+        return 0.25 * lit;
+    }
+    const int kTaps = 16;
+    float lit = 0.0;
+    for (int i = 0; i < kTaps; ++i) lit += compareLightMap(view.layer, at, vogelDisc(i, kTaps) * filterTexels * texel);
+    return lit / float(kTaps);
+}
+
+#endif

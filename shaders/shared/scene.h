@@ -1,0 +1,134 @@
+// What C++ uploads and shaders read: one definition for both. Scalar layout everywhere.
+// Lengths are metres relative to the scene's origin (the centre of its bounds), unless a name says mm.
+#ifndef CUTIS_SHARED_SCENE_H
+#define CUTIS_SHARED_SCENE_H
+#include "shared/interop.h"
+CUTIS_SHARED_BEGIN
+
+const uint MATERIAL_SKIN = 1u;
+const uint MATERIAL_UNLIT = 2u;
+const uint MATERIAL_DOUBLE_SIDED = 4u;
+const uint MATERIAL_MASK = 8u;
+const uint MATERIAL_BLEND = 16u;
+const uint MATERIAL_TRANSLUCENT = 32u;
+
+const int MAX_TEXTURE_GROUPS = 16;
+const uint NO_CHART = 0xffffffffu;
+
+// A texture as a layer of one of the bound arrays (textures of equal size, format and sampler share an array).
+struct TextureRef {
+    int group;     // index into materialTextures; -1: no texture
+    int layer;     // layer of that array
+    int texCoord;  // 0 or 1
+    vec3 u, v;     // uv' = (dot(u, (uv,1)), dot(v, (uv,1)))
+};
+
+struct Material {
+    vec4 baseColor;
+    vec3 emissive;  // radiance
+    float metallic;
+    float roughness;  // perceptual, glTF (alpha = roughness²)
+    float normalScale;
+    float occlusionStrength;
+    float alphaCutoff;
+    uint flags;  // MATERIAL_*
+    // Skin (DESIGN §2.2)
+    float slope;           // m, Beckmann rms slope
+    float specularScale;   // s
+    float mix;             // pre/post-scatter mix
+    float mmPerUnit;       // millimetres in one scene unit
+    float meanAlbedo;      // mean directional albedo at m, not yet multiplied by s
+    uint albedoRow;        // row of the directional-albedo table
+    uint matteLayer;       // index of m among the environment's prefiltered matte maps
+    TextureRef baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture;
+};
+
+// One primitive placed in the world.
+struct DrawInfo {
+    uint material;
+    uint character;      // 1-based; 0: belongs to none
+    uint receiverGroup;  // which of a light sample's views holds it
+    uint chart;          // index of its atlas chart, or NO_CHART when it is not skin
+    uint firstVertex;    // in the vertex streams
+    uint firstProbe;     // not skin: probe of its first vertex (environment visibility)
+};
+
+struct VertexAttributes {
+    vec3 normal;
+    vec4 tangent;  // w: sign of the bitangent; 0: none
+    vec2 uv0, uv1;
+    vec4 color;
+};
+
+// Skin vertices only.
+struct AtlasVertex {
+    vec2 texel;    // place in the atlas, in texels
+    vec3 metric;   // G = JᵀJ as (G00, G01, G11) in mm² per texel², J = d(position)/d(texel)
+    float island;  // 1-based number of its UV island
+};
+
+// A rectangle of the atlas: the UV layout of one skin material of one character.
+struct Chart {
+    uvec4 rect;        // x, y, width, height in texels
+    uint material;
+    uint character;
+    uint firstGaussian;  // in the gaussians buffer
+    uint gaussianCount;
+};
+
+struct GaussianTerm {
+    vec3 weight;
+    float variance;  // mm²
+};
+
+const uint LIGHT_DIRECTIONAL = 1u;
+const uint LIGHT_COSINE = 2u;  // emission falls with the cosine to its direction, front only
+const uint LIGHT_SHADOW = 4u;
+
+struct LightSampleData {
+    vec3 position;
+    uint flags;      // LIGHT_*
+    vec3 direction;  // where it shines to
+    float cosInner;  // spot cone
+    vec3 intensity;  // lux when directional, else candela on axis
+    float cosOuter;
+    float range;    // 0: none
+    float radius;   // of the source it stands for: metres, or radians when directional
+    uint firstView;  // its views, one a receiver group
+};
+
+// A light map's camera.
+struct LightView {
+    mat4 worldToClip;
+    vec3 depthToDistance;  // distance along the axis from depth d: x / (y + z·d), or x + z·d when y is 0
+    float texelSize;       // width of a texel in metres (orthographic), or at unit distance (perspective)
+    uint layer;
+};
+
+// The camera of the picture.
+struct ViewCamera {
+    mat4 worldToClip;
+    vec3 origin;  // eye (perspective) or centre of the near plane (orthographic)
+    uint orthographic;
+    vec3 right;    // from the picture's centre to its right edge, at unit depth (perspective) or in metres
+    float znear;
+    vec3 up;       // likewise to its top edge
+    float exposure;
+    vec3 forward;  // unit
+    float pad;
+};
+
+struct EnvironmentSettingsData {
+    float cosRotation, sinRotation;
+    float intensity;
+    uint visibilityDirections;
+};
+
+// A direction in which the environment's visibility is known, and the light that arrives from around it.
+struct EnvironmentDirection {
+    vec3 flux;      // lux arriving from the cell of this direction
+    vec3 direction;  // unit, flux-weighted mean of the cell
+};
+
+CUTIS_SHARED_END
+#endif
