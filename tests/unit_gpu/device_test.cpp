@@ -12,6 +12,18 @@
 namespace cutis::gpu {
 namespace {
 
+// Sets an environment variable for one scope.
+class ScopedVariable {
+  public:
+    ScopedVariable(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }
+    ~ScopedVariable() { unsetenv(name_); }
+    ScopedVariable(const ScopedVariable&) = delete;
+    ScopedVariable& operator=(const ScopedVariable&) = delete;
+
+  private:
+    const char* name_;
+};
+
 TEST(Devices, ListHasTheSoftwareDevice) {
     const std::vector<DeviceInfo> devices = listDevices();
     const auto cpu =
@@ -48,10 +60,32 @@ TEST(Devices, UnknownSelectionNamesWhatThereIs) {
 }
 
 TEST(Devices, EnvironmentVariableIsTheDefault) {
-    setenv("CUTIS_DEVICE", "no such device", 1);
+    const ScopedVariable choice("CUTIS_DEVICE", "no such device");
     EXPECT_THROW(Device(), Error);
     EXPECT_NO_THROW(Device({.select = "cpu"}));  // an explicit choice wins
-    unsetenv("CUTIS_DEVICE");
+}
+
+TEST(Devices, WithoutAnyDriverThereIsOneLine) {
+    const ScopedVariable drivers("VK_DRIVER_FILES", "/nonexistent"),
+        older("VK_ICD_FILENAMES", "/nonexistent");
+    try {
+        listDevices();
+        FAIL() << "devices without drivers";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.subject(), "device");
+        EXPECT_NE(error.why().find("driver"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Devices, ValidationWithoutItsLayerIsAnError) {
+    const ScopedVariable layers("VK_LAYER_PATH", "/nonexistent");
+    EXPECT_NO_THROW(Device({.select = "cpu"}));
+    try {
+        const Device device({.select = "cpu", .validation = true});
+        FAIL() << "validation without its layer";
+    } catch (const Error& error) {
+        EXPECT_NE(error.why().find("VK_LAYER_KHRONOS_validation"), std::string::npos) << error.what();
+    }
 }
 
 using Memory = GpuTest;
