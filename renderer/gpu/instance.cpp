@@ -112,6 +112,14 @@ std::string whyUnsuitable(VkPhysicalDevice physical, const VkPhysicalDevicePrope
     for (const std::string& name : chooseFeatures(physical, features))
         lacking += (lacking.empty() ? "" : ", ") + name;
     if (!lacking.empty()) return "it lacks " + lacking;
+    VkPhysicalDeviceVulkan11Properties subgroups{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES};
+    VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups};
+    vkGetPhysicalDeviceProperties2(physical, &all);
+    constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    if (!(subgroups.subgroupSupportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) ||
+        (subgroups.subgroupSupportedStages & kStages) != kStages) {
+        return "it lacks subgroup ballots in compute and fragment shaders";
+    }
     if (findQueueFamily(physical) < 0) return "it has no queue for graphics and compute with timestamps";
     return {};
 }

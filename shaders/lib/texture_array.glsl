@@ -10,17 +10,21 @@
 #ifndef CUTIS_TEXTURE_ARRAY_GLSL
 #define CUTIS_TEXTURE_ARRAY_GLSL
 
+// How many of the textures there are: lookups into the rest are not compiled. A software device runs every branch for
+// every invocation, so that a texture that is not there would cost as much as one that is.
+layout(constant_id = 0) const uint TEXTURE_GROUPS = 16;
+
 // at: texture coordinates and layer; dx, dy: their change over one pixel, which chooses the mip.
 vec4 sampleTextureArray(uint index, vec3 at, vec2 dx, vec2 dy) {
-#define CUTIS_SAMPLE(i) case i: return textureGrad(CUTIS_TEXTURE_ARRAY[i], at, dx, dy);
-    switch (index) {
-        CUTIS_SAMPLE(0u) CUTIS_SAMPLE(1u) CUTIS_SAMPLE(2u) CUTIS_SAMPLE(3u)
-        CUTIS_SAMPLE(4u) CUTIS_SAMPLE(5u) CUTIS_SAMPLE(6u) CUTIS_SAMPLE(7u)
-        CUTIS_SAMPLE(8u) CUTIS_SAMPLE(9u) CUTIS_SAMPLE(10u) CUTIS_SAMPLE(11u)
-        CUTIS_SAMPLE(12u) CUTIS_SAMPLE(13u) CUTIS_SAMPLE(14u) CUTIS_SAMPLE(15u)
-    }
+    vec4 value = vec4(0.0);
+#define CUTIS_SAMPLE(i) \
+    if (i < TEXTURE_GROUPS && index == i) value = textureGrad(CUTIS_TEXTURE_ARRAY[i], at, dx, dy);
+    CUTIS_SAMPLE(0u) CUTIS_SAMPLE(1u) CUTIS_SAMPLE(2u) CUTIS_SAMPLE(3u)
+    CUTIS_SAMPLE(4u) CUTIS_SAMPLE(5u) CUTIS_SAMPLE(6u) CUTIS_SAMPLE(7u)
+    CUTIS_SAMPLE(8u) CUTIS_SAMPLE(9u) CUTIS_SAMPLE(10u) CUTIS_SAMPLE(11u)
+    CUTIS_SAMPLE(12u) CUTIS_SAMPLE(13u) CUTIS_SAMPLE(14u) CUTIS_SAMPLE(15u)
 #undef CUTIS_SAMPLE
-    return vec4(0.0);
+    return value;
 }
 
 #endif

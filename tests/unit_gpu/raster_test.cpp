@@ -128,6 +128,30 @@ TEST_F(Raster, DepthAlone) {
     EXPECT_NEAR(double(std::count(values.begin(), values.end(), 0.25f)), kSize * kSize / 2.0, kSize / 2.0);
 }
 
+TEST_F(Raster, FragmentsSampleATextureArrayEachByItsOwnIndex) {
+    const Program& program = device().program({"triangles.vert", "texture_array.frag"},
+                                              RasterState{.colorFormats = {VK_FORMAT_R32_SFLOAT}});
+    const Image target = makeImage("target", kSize, kSize);
+    std::vector<Image> images;
+    std::vector<SampledImage> array;
+    Commands commands = device().begin();
+    for (std::uint32_t i = 0; i < 16; ++i) {
+        images.push_back(makeImage("texture", 16, 16, 1, 5));
+        commands.clear(images[i], {float(i + 1), 0, 0, 0});
+        array.push_back(sampled(images[i], device().sampler()));
+    }
+    commands.upload(vertices_, quad(0.5f));
+    commands.upload(indices_, kQuadIndices);
+    const DrawCall call{.count = 6};
+    commands.draw(program, {.colors = {{target, ClearValue()}}},
+                  {{"Vertices", vertices_}, {"textures", array}}, Placing{{1, 1}, {0, 0}},
+                  std::span(&call, 1), &indices_);
+    const Readback result = commands.readback(target);
+    commands.submitAndWait();
+    const std::vector<float> values = result.as<float>();
+    for (std::uint32_t i = 0; i < kSize * kSize; ++i) ASSERT_EQ(values[i], float(i % kSize + 1)) << i;
+}
+
 TEST_F(Raster, MisuseThrows) {
     const DrawCall call{.count = 3};
     Commands commands = device().begin();
