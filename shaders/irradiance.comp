@@ -27,6 +27,7 @@ layout(binding = 9, scalar) readonly buffer LightBuffer { LightSampleData lights
 layout(binding = 10, scalar) readonly buffer LightViewBuffer { LightView lightViews[]; };
 layout(binding = 11) uniform sampler2DArrayShadow lightDepthCompare;
 layout(binding = 12) uniform sampler2DArray lightDepth;
+layout(binding = 19) writeonly uniform image2DArray lightVisibility;  // a layer a light: the share of it that arrives
 #endif
 #ifdef TRANSLUCENCY
 layout(binding = 13) uniform utexture2DArray lightEntry;
@@ -112,9 +113,12 @@ EntryPoint findEntry(LightView view, vec3 p, vec3 n, vec3 l, float rayScale, uin
     vec3 entryNormal = decodeOctahedral(texelFetch(normal, entryTexel, 0).xy);
     float path = max((here - depth) * rayScale, 0.0) * mmPerUnit;
     // d'Eon & Luebke 2007, §14.5.3: where light leaves through a face opposite to the one it entered, thickness is
-    // what the normal measures, not the slanted ray.
+    // what the normals measure, not the slanted ray. They take the cosine at the exit, which vanishes at the
+    // terminator even if the entry point lies deep across a head; the larger cosine of the two ends is the same on
+    // parallel faces, and does not.
     float opposite = clamp(-dot(entryNormal, n), 0.0, 1.0);
-    return EntryPoint(path * mix(1.0, clamp(-dot(n, l), 0.0, 1.0), opposite), place);
+    float cosine = clamp(max(-dot(n, l), dot(entryNormal, l)), 0.0, 1.0);
+    return EntryPoint(path * mix(1.0, cosine, opposite), place);
 }
 #endif
 
@@ -138,6 +142,7 @@ void main() {
     float thickness = kNoThickness;
     vec2 entryTexel = vec2(-1.0);
 #ifdef LIGHTS
+    float sentOfLight = 0.0, arrivedOfLight = 0.0;
     for (uint i = 0u; i < push.lightCount; ++i) {
         LightSampleData light = lights[i];
         Incident from = incidentLight(light, p);
@@ -155,6 +160,11 @@ void main() {
             }
 #endif
             vec3 e = from.irradiance * (cosine * visible);
+#ifdef SHADOWS
+            float sent = cosine * max(from.irradiance.x, max(from.irradiance.y, from.irradiance.z));
+            sentOfLight += sent;
+            arrivedOfLight += sent * visible;
+#endif
             arriving += e;
             entering += e * transmittedFraction(cosine, material.specularScale, material.albedoRow);
         }
@@ -170,6 +180,13 @@ void main() {
                 thickness = found.thickness;
                 entryTexel = found.texel;
             }
+        }
+#endif
+#ifdef SHADOWS
+        if (i + 1u == push.lightCount || lights[i + 1u].light != light.light) {
+            float share = sentOfLight > 0.0 ? arrivedOfLight / sentOfLight : 1.0;
+            imageStore(lightVisibility, ivec3(texel, int(light.light)), vec4(share));
+            sentOfLight = arrivedOfLight = 0.0;
         }
 #endif
     }

@@ -84,8 +84,8 @@ void main() {
     vec3 wx = barycentricInPlane(centre + vec2(1, 0), aa.texel, ab.texel, ac.texel);
     vec3 wy = barycentricInPlane(centre + vec2(0, 1), aa.texel, ab.texel, ac.texel);
     SurfaceUv uv = surfaceUv(w, wx, wy, va, vb, vc);
-    if (material.baseColorTexture.group >= 0) rho *= sampleMaterial(material.baseColorTexture, uv).rgb;
-    if (material.normalTexture.group >= 0) {
+    if ((TEXTURE_SLOTS & SLOT_BASE_COLOR) != 0u && material.baseColorTexture.group >= 0) rho *= sampleMaterial(material.baseColorTexture, uv).rgb;
+    if ((TEXTURE_SLOTS & SLOT_NORMAL) != 0u && material.normalTexture.group >= 0) {
         vec4 tangent = interpolate(w, va.tangent, vb.tangent, vc.tangent);
         mapped = mappedNormal(n, tangent, sampleMaterial(material.normalTexture, uv).xyz, material.normalScale);
     }

@@ -22,10 +22,10 @@ double mmPerUnitOf(const Scene& scene, int material) {
     return scene.materials[material].skin->mmPerUnit;
 }
 
-// Root mean square lengths of the surface along u and v, in mm per unit of uv, over a chart's triangles.
+// Lengths of the surface along u and v, in mm per unit of uv, on average over a chart's triangles.
 glm::dvec2 meanStretch(const Geometry& geometry, const std::vector<int>& draws, double mmPerUnit) {
     glm::dvec2 sum(0);
-    double area = 0;
+    double area = 0, surface = 0;  // twice the areas
     for (int d : draws) {
         const GeometryDraw& draw = geometry.draws[d];
         for (std::uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3) {
@@ -42,9 +42,13 @@ glm::dvec2 meanStretch(const Geometry& geometry, const std::vector<int>& draws, 
             const double weight = std::abs(det);
             sum += weight * glm::dvec2(glm::dot(du, du), glm::dot(dv, dv));
             area += weight;
+            surface += glm::length(glm::cross(p1, p2));
         }
     }
-    return area > 0 ? glm::sqrt(sum / area) : glm::dvec2(1);
+    if (!(area > 0)) return glm::dvec2(1);
+    // Their ratio shapes the rectangle; its size makes the texels as many as the surface has of the wanted size.
+    const glm::dvec2 rms = glm::sqrt(sum / area);
+    return rms * std::sqrt(surface / area / std::max(rms.x * rms.y, 1e-30));
 }
 
 std::vector<AtlasChart> collectCharts(const Scene& scene, Geometry& geometry) {

@@ -11,8 +11,6 @@
 namespace cutis {
 namespace {
 
-// Samples of the picture that fit one view image; larger pictures are drawn in tiles.
-constexpr int kTileSamples = 4096;
 constexpr int kSupersampling = 2;
 // Directions in which the environment's visibility is known: enough that a hemisphere's irradiance is within 2 %.
 constexpr int kVisibilityDirections = 128;
@@ -24,6 +22,7 @@ constexpr int kLargestLightMap = 2048, kSmallestLightMap = 128;
 void uploadLights(FrameContext& frame) {
     std::vector<shared::LightSampleData> samples;
     std::uint32_t shadowed = 0;
+    int lastLight = 0;
     for (const LightSample& from : frame.lightSamples) {
         shared::LightSampleData to{};
         to.position = glm::vec3(from.position - frame.geometry.origin);
@@ -39,6 +38,9 @@ void uploadLights(FrameContext& frame) {
             to.flags |= shared::LIGHT_SHADOW;
             to.firstView = shadowed++ * static_cast<std::uint32_t>(frame.groups.size());
         }
+        if (samples.empty() || from.light != lastLight) to.light = frame.lights.lightCount++;
+        else to.light = frame.lights.lightCount - 1;
+        lastLight = from.light;
         samples.push_back(to);
     }
     frame.lights.sampleCount = static_cast<std::uint32_t>(samples.size());
@@ -131,7 +133,8 @@ void exitanceRow(FrameContext& frame) {
 void compositeRow(FrameContext& frame) {
     const bool environment = frame.needs[Need::environment];
     const glm::ivec2 picture(frame.settings->width, frame.settings->height);
-    const int step = kTileSamples / kSupersampling;
+    const int step = tileSize(frame.scene.buffers, kSupersampling);
+    if (frame.target.aovs) frame.commands->clear(frame.target.aovs);
     for (int y = 0; y < picture.y; y += step) {
         for (int x = 0; x < picture.x; x += step) {
             const glm::ivec2 origin(x, y);

@@ -196,6 +196,10 @@ RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const 
     }
     frame.needs = computeNeeds(needs);
     const Plan plan = makePlan(frame.needs);
+    if (!frame.needs[Need::litSkin]) {
+        // Skin that no light reaches is as black as anything else, and needs no atlas to be so.
+        for (shared::DrawInfo& draw : frame.geometry.drawInfos) draw.chart = shared::NO_CHART;
+    }
 
     RenderResult result;
     {

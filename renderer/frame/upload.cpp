@@ -45,6 +45,16 @@ std::vector<bool> usedTextures(const Scene& scene, const Geometry& geometry) {
     return used;
 }
 
+std::uint32_t usedSlots(const Scene& scene, const Geometry& geometry) {
+    std::uint32_t slots = 0;
+    for (const GeometryDraw& draw : geometry.draws) {
+        for (std::uint32_t i = 0; i < std::size(kSlots); ++i) {
+            if (scene.materials[draw.material].*kSlots[i]) slots |= 1u << i;
+        }
+    }
+    return slots;
+}
+
 shared::TextureRef textureRef(const TextureSlot& slot, const TextureArrays& arrays) {
     shared::TextureRef ref{};
     ref.group = slot ? arrays.places[slot.texture].group : -1;
@@ -171,6 +181,8 @@ UploadedScene uploadScene(gpu::Device& device, gpu::Commands& commands, const Sc
     TextureArrays arrays = uploadTextures(device, commands, scene, usedTextures(scene, geometry));
     uploadMaterials(device, commands, scene, geometry, arrays, uploaded);
     uploadCharts(device, commands, scene, atlas, gaussians, uploaded);
+    buffers.textureGroups = static_cast<std::uint32_t>(arrays.images.size());
+    buffers.textureSlots = usedSlots(scene, geometry);
     buffers.textureArrays = std::move(arrays.images);
     buffers.materialTextures = std::move(arrays.sampled);
     buffers.indices = uploadBuffer(device, commands, "indices", geometry.indices, true);

@@ -1,5 +1,7 @@
 #include "renderer/passes/composite.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "renderer/gpu/device.h"
@@ -8,16 +10,29 @@ namespace cutis {
 namespace {
 
 // Surfaces seen through, one behind the other, that are kept apart.
-constexpr int kPeeledLayers = 8;
+constexpr int kPeeledLayers = 6;
+// Shading points of a tile, whatever it holds: what bounds the memory of a picture of any size.
+constexpr double kMaxPoints = 1 << 22;
 
 struct ViewPush {
     std::uint32_t firstTriangle, material;
 };
 
-struct CompositePush {
-    glm::ivec2 tile, tileSize, pictureSize;
+struct CollectPush {
+    glm::ivec2 tileSize;
     int supersampling, layers;
-    std::uint32_t lightCount, aovLayers0, aovLayers1;
+};
+
+struct ShadePush {
+    glm::ivec2 tile, pictureSize;
+    std::uint32_t lightCount;
+    float step;
+    std::uint32_t aovLayers0, aovLayers1;
+};
+
+struct ResolvePush {
+    glm::ivec2 tile, tileSize;
+    int diffuseLayer, specularLayer;
 };
 
 // The projection of the whole picture, narrowed to a tile of it.
@@ -31,6 +46,13 @@ shared::ViewCamera cameraOfTile(shared::ViewCamera camera, const ViewTile& tile)
     narrow[3][1] = shift.y;
     camera.worldToClip = narrow * camera.worldToClip;
     return camera;
+}
+
+int layerCount(const SceneBuffers& scene) {
+    for (const DrawRange& range : scene.ranges) {
+        if (range.blended) return kPeeledLayers + 1;
+    }
+    return 1;
 }
 
 struct PeelDepths {
@@ -57,8 +79,10 @@ void drawRange(gpu::Device& device, gpu::Commands& commands, const SceneBuffers&
         bindings.push_back({"opaqueDepth", *peel->opaque});
         bindings.push_back({"previousDepth", *peel->previous});
     }
+    gpu::Specialization constants;
+    if (range.masked && !range.blended) constants.push_back({0, scene.textureGroups});
     const gpu::DrawCall call{.first = range.firstIndex, .count = range.indexCount};
-    commands.draw(device.program({vertex, fragment}, state), bindings, ViewPush{range.firstIndex / 3, range.material},
+    commands.draw(device.program({vertex, fragment}, state, constants), bindings, ViewPush{range.firstIndex / 3, range.material},
                   {&call, 1}, &scene.indices);
 }
 
@@ -66,10 +90,8 @@ void drawRange(gpu::Device& device, gpu::Commands& commands, const SceneBuffers&
 
 ViewImages recordView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                       const shared::ViewCamera& camera, const ViewTile& tile) {
-    bool blended = false;
-    for (const DrawRange& range : scene.ranges) blended |= range.blended;
     ViewImages view;
-    view.layers = blended ? kPeeledLayers + 1 : 1;
+    view.layers = layerCount(scene);
     const auto width = static_cast<std::uint32_t>(tile.size.x * tile.supersampling);
     const auto height = static_cast<std::uint32_t>(tile.size.y * tile.supersampling);
     view.triangles = gpu::Image(device, {.name = "view triangles", .format = VK_FORMAT_R32_UINT, .width = width,
@@ -87,7 +109,7 @@ ViewImages recordView(gpu::Device& device, gpu::Commands& commands, const SceneB
         if (!range.blended) drawRange(device, commands, scene, view.camera, range, nullptr);
     }
     commands.endRendering();
-    if (!blended) return view;
+    if (view.layers == 1) return view;
 
     // Depth peeling (Everitt 2001): each layer is the nearest surface behind the one before.
     gpu::Image depths[2] = {depthImage("peeled depth 0"), depthImage("peeled depth 1")};
@@ -104,16 +126,75 @@ ViewImages recordView(gpu::Device& device, gpu::Commands& commands, const SceneB
     return view;
 }
 
-void recordComposite(gpu::Device& device, gpu::Commands& commands, const CompositeInput& input, const ViewTile& tile,
-                     const PictureTarget& target) {
+int tileSize(const SceneBuffers& scene, int supersampling) {
+    const double pointsPerPixel = static_cast<double>(supersampling) * supersampling * layerCount(scene);
+    const int edge = static_cast<int>(std::sqrt(kMaxPoints / pointsPerPixel));
+    return std::max(8, edge / 8 * 8);
+}
+
+namespace {
+
+// Buffers between the three steps of the composite.
+struct PointBuffers {
+    gpu::Buffer points, skinList, otherList, counts, groups, shaded;
+    gpu::Image pixels;
+};
+
+PointBuffers collectPoints(gpu::Device& device, gpu::Commands& commands, const CompositeInput& input,
+                           const ViewTile& tile) {
     const SceneBuffers& scene = *input.scene;
-    std::string shader = "composite.comp";
-    gpu::Bindings bindings{{"triangles", input.view->triangles},  {"IndexBuffer", scene.indices},
-                           {"PositionBuffer", scene.positions},   {"AttributeBuffer", scene.attributes},
-                           {"TriangleDrawBuffer", scene.triangleDraws}, {"DrawBuffer", scene.draws},
-                           {"MaterialBuffer", scene.materials},   {"CameraBuffer", input.view->camera},
-                           {"LightBuffer", input.lights->samples}, {"picture", target.picture}};
-    const bool skin = input.skin != nullptr, aovs = static_cast<bool>(target.aovs);
+    const std::uint64_t capacity = std::uint64_t(tile.size.x) * tile.size.y * tile.supersampling *
+                                   tile.supersampling * input.view->layers;
+    const auto buffer = [&](const char* name, std::uint64_t bytes, bool indirect = false) {
+        return gpu::Buffer(device, {.name = name, .bytes = bytes, .indirect = indirect});
+    };
+    PointBuffers buffers;
+    buffers.points = buffer("shading points", capacity * sizeof(shared::ShadingPoint));
+    buffers.skinList = buffer("skin points", capacity * 4);
+    buffers.otherList = buffer("other points", capacity * 4);
+    buffers.counts = buffer("point counts", 12);
+    buffers.groups = buffer("point groups", 24, true);
+    buffers.shaded = buffer("shaded points", capacity * sizeof(shared::ShadedPoint));
+    buffers.pixels = gpu::Image(device, {.name = "pixel points", .format = VK_FORMAT_R32G32_UINT,
+                                         .width = static_cast<std::uint32_t>(tile.size.x),
+                                         .height = static_cast<std::uint32_t>(tile.size.y)});
+    commands.fill(buffers.counts, 0);
+    const gpu::Program& collect = device.program("collect.comp");
+    commands.dispatch(collect,
+                      {{"triangles", input.view->triangles},
+                       {"IndexBuffer", scene.indices},
+                       {"PositionBuffer", scene.positions},
+                       {"TriangleDrawBuffer", scene.triangleDraws},
+                       {"DrawBuffer", scene.draws},
+                       {"PointBuffer", buffers.points},
+                       {"SkinListBuffer", buffers.skinList},
+                       {"OtherListBuffer", buffers.otherList},
+                       {"CountBuffer", buffers.counts},
+                       {"pixels", buffers.pixels}},
+                      CollectPush{tile.size, tile.supersampling, input.view->layers},
+                      gpu::groupsFor(collect, tile.size.x, tile.size.y));
+    commands.dispatch(device.program("collect_groups.comp"),
+                      {{"CountBuffer", buffers.counts}, {"GroupBuffer", buffers.groups}}, {}, {});
+    return buffers;
+}
+
+void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeInput& input, const ViewTile& tile,
+                 const PictureTarget& target, const PointBuffers& buffers, bool skin) {
+    const SceneBuffers& scene = *input.scene;
+    const bool aovs = static_cast<bool>(target.aovs);
+    std::string shader = "shade.comp";
+    gpu::Bindings bindings{{"PointBuffer", buffers.points},
+                           {"ListBuffer", skin ? buffers.skinList : buffers.otherList},
+                           {"CountBuffer", buffers.counts},
+                           {"ShadedBuffer", buffers.shaded},
+                           {"IndexBuffer", scene.indices},
+                           {"PositionBuffer", scene.positions},
+                           {"AttributeBuffer", scene.attributes},
+                           {"TriangleDrawBuffer", scene.triangleDraws},
+                           {"DrawBuffer", scene.draws},
+                           {"MaterialBuffer", scene.materials},
+                           {"CameraBuffer", input.view->camera},
+                           {"LightBuffer", input.lights->samples}};
     if (skin) {
         shader += "+SKIN";
         bindings.push_back({"AlbedoTableBuffer", scene.albedoTable});
@@ -123,17 +204,24 @@ void recordComposite(gpu::Device& device, gpu::Commands& commands, const Composi
     }
     if (input.lights->depth) {
         shader += "+SHADOWS";
-        bindings.push_back({"LightViewBuffer", input.lights->views});
-        bindings.push_back({"lightDepthCompare", depthComparison(device, input.lights->depth)});
-        bindings.push_back({"lightDepth", nearest(device, input.lights->depth)});
+        if (skin) {
+            bindings.push_back({"lightVisibility", bilinear(device, input.skin->visibility)});
+        } else {
+            bindings.push_back({"LightViewBuffer", input.lights->views});
+            bindings.push_back({"lightDepthCompare", depthComparison(device, input.lights->depth)});
+            bindings.push_back({"lightDepth", nearest(device, input.lights->depth)});
+        }
     }
     if (input.environment) {
         shader += "+ENVIRONMENT";
-        bindings.push_back({"environmentIrradiance", bilinear(device, input.environment->irradiance)});
+        if (!skin) {
+            bindings.push_back({"environmentIrradiance", bilinear(device, input.environment->irradiance)});
+            bindings.push_back({"ProbeBuffer", input.visibility->probes});
+        } else {
+            bindings.push_back({"openSky", bilinear(device, input.visibility->openSky)});
+        }
         bindings.push_back({"environmentRadiance", trilinear(device, input.environment->radiance)});
         bindings.push_back({"EnvironmentBuffer", *input.environmentSettings});
-        bindings.push_back({"ProbeBuffer", input.visibility->probes});
-        if (skin) bindings.push_back({"openSky", bilinear(device, input.visibility->openSky)});
     }
     if (scene.textured()) {
         shader += "+TEXTURED";
@@ -143,14 +231,36 @@ void recordComposite(gpu::Device& device, gpu::Commands& commands, const Composi
         shader += "+AOVS";
         bindings.push_back({"aovs", target.aovs});
     }
-    CompositePush push{tile.origin, tile.size, tile.pictureSize, tile.supersampling, input.view->layers,
-                       input.lights->sampleCount, 0, 0};
+    ShadePush push{tile.origin, tile.pictureSize, input.lights->sampleCount,
+                   input.view->layers > 1 ? 1.0f / static_cast<float>(tile.supersampling) : 1.0f, 0, 0};
     for (int i = 0; i < kAovCount; ++i) {
         const auto layer = static_cast<std::uint32_t>(target.aovLayer[i]) & 15u;
         (i < 8 ? push.aovLayers0 : push.aovLayers1) |= layer << (i % 8 * 4);
     }
-    const gpu::Program& program = device.program(shader);
-    commands.dispatch(program, bindings, push, gpu::groupsFor(program, tile.size.x, tile.size.y));
+    const gpu::Program& program =
+        scene.textured() ? device.program(shader, scene.textureConstants()) : device.program(shader);
+    commands.dispatchIndirect(program, bindings, push, buffers.groups, skin ? 0 : 12);
+}
+
+}  // namespace
+
+void recordComposite(gpu::Device& device, gpu::Commands& commands, const CompositeInput& input, const ViewTile& tile,
+                     const PictureTarget& target) {
+    const PointBuffers buffers = collectPoints(device, commands, input, tile);
+    bool skin = false, other = false;
+    for (const DrawRange& range : input.scene->ranges) (range.skin && input.skin ? skin : other) = true;
+    if (skin) shadePoints(device, commands, input, tile, target, buffers, true);
+    if (other) shadePoints(device, commands, input, tile, target, buffers, false);
+    const bool aovs = static_cast<bool>(target.aovs);
+    gpu::Bindings bindings{{"pixels", buffers.pixels},
+                           {"PointBuffer", buffers.points},
+                           {"ShadedBuffer", buffers.shaded},
+                           {"picture", target.picture}};
+    if (aovs) bindings.push_back({"aovs", target.aovs});
+    const gpu::Program& resolve = device.program(aovs ? "resolve.comp+AOVS" : "resolve.comp");
+    commands.dispatch(resolve, bindings,
+                      ResolvePush{tile.origin, tile.size, target.aovLayer[kAovDiffuse], target.aovLayer[kAovSpecular]},
+                      gpu::groupsFor(resolve, tile.size.x, tile.size.y));
 }
 
 }  // namespace cutis

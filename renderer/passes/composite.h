@@ -1,5 +1,5 @@
 // View and composite: what the camera sees, then its colour. Nothing else depends on the camera.
-// Shaders: view.vert, view.frag, composite.comp.
+// Shaders: view.vert, view.frag; collect.comp, shade.comp, resolve.comp.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace cutis {
 
-inline constexpr int kAovCount = 9;  // in the order of kAovNames and of AOV_ in composite.comp
+inline constexpr int kAovCount = 9;  // in the order of kAovNames and of AOV_ in shade.comp
+inline constexpr int kAovDiffuse = 0, kAovSpecular = 1;
 
 struct PictureTarget {
     gpu::Image picture;  // RGBA32F
@@ -29,6 +30,9 @@ struct ViewImages {
     int layers = 1;
     gpu::Buffer camera;
 };
+
+// Largest edge of a tile, in pixels, whose shading points fit the memory that a tile may take.
+int tileSize(const SceneBuffers& scene, int supersampling);
 
 ViewImages recordView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                       const shared::ViewCamera& camera, const ViewTile& tile);

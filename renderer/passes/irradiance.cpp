@@ -1,5 +1,6 @@
 #include "renderer/passes/irradiance.h"
 
+#include <algorithm>
 #include <string>
 
 #include "renderer/gpu/device.h"
@@ -39,6 +40,11 @@ void recordIrradiance(gpu::Device& device, gpu::Commands& commands, const Irradi
         if (input.lights->depth) {
             shader += "+SHADOWS";
             bindings.push_back({"LightViewBuffer", input.lights->views});
+            light.visibility = gpu::Image(device, {.name = "light visibility", .format = VK_FORMAT_R8_UNORM,
+                                                   .width = size, .height = size,
+                                                   .layers = std::max(input.lights->lightCount, 1u)});
+            commands.clear(light.visibility);
+            bindings.push_back({"lightVisibility", light.visibility});
             bindings.push_back({"lightDepthCompare", depthComparison(device, input.lights->depth)});
             bindings.push_back({"lightDepth", nearest(device, input.lights->depth)});
         }

@@ -65,7 +65,7 @@ void drawBatch(gpu::Device& device, gpu::Commands& commands, const SceneBuffers&
     }
     std::vector<std::string> shaders{vertex};
     if (targets.entry || batch.masked) shaders.push_back(fragment);
-    commands.draw(device.program(shaders, state), bindings,
+    commands.draw(device.program(shaders, state, batch.masked ? gpu::Specialization{{0, scene.textureGroups}} : gpu::Specialization{}), bindings,
                   MapPush{view, 1.0f / static_cast<float>(std::max(targets.atlasSize, 1)), batch.material}, batch.calls,
                   &scene.indices);
 }

@@ -8,6 +8,7 @@
 #include "renderer/gpu/buffer.h"
 #include "renderer/gpu/commands.h"
 #include "renderer/gpu/image.h"
+#include "renderer/gpu/program.h"
 #include "renderer/skin/profile.h"
 #include "shaders/shared/scene.h"
 
@@ -35,6 +36,8 @@ struct SceneBuffers {
     std::vector<gpu::Image> textureArrays;
     std::vector<gpu::SampledImage> materialTextures;  // MAX_TEXTURE_GROUPS of them, or none
     std::vector<DrawRange> ranges;
+    std::uint32_t textureGroups = 0, textureSlots = 0;  // specialization constants 0 and 1 of what samples textures
+    gpu::Specialization textureConstants() const { return {{0, textureGroups}, {1, textureSlots}}; }
     bool textured() const { return !materialTextures.empty(); }
 };
 
@@ -57,6 +60,7 @@ struct LightMaps {
     gpu::Buffer samples, views;
     std::vector<shared::LightView> viewList;  // as uploaded
     std::uint32_t sampleCount = 0;
+    std::uint32_t lightCount = 0;  // that the samples belong to
     gpu::Image depth;
     gpu::Image entry;  // only with translucency
 };
@@ -74,6 +78,7 @@ struct SkinLight {
     gpu::Image irradiance;  // E' and the island
     gpu::Image incident;    // E and the thickness
     gpu::Image entry;       // only with translucency
+    gpu::Image visibility;  // a layer a light: share of it that arrives; only with shadows
     gpu::Image levels;      // a layer for each Gaussian
     gpu::Image scratch;     // between the two directions of a blur
     gpu::Image exitance;

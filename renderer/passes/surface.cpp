@@ -65,7 +65,8 @@ SurfaceImages recordSurface(gpu::Device& device, gpu::Commands& commands, const 
                            {"albedo", images.albedo},
                            {"stretch", images.stretch}};
     if (scene.textured()) bindings.push_back({"materialTextures", scene.materialTextures});
-    const gpu::Program& program = device.program(scene.textured() ? "surface.comp+TEXTURED" : "surface.comp");
+    const gpu::Program& program = scene.textured() ? device.program("surface.comp+TEXTURED", scene.textureConstants())
+                                                   : device.program("surface.comp");
     commands.dispatch(program, bindings, {}, gpu::groupsFor(program, size, size));
     return images;
 }

@@ -70,7 +70,7 @@ float lightMapVisibility(LightView view, vec3 p, vec3 n, vec3 l, float extent, f
     vec2 texel = 1.0 / vec2(textureSize(lightDepth, 0).xy);
     float radius = 0.0;  // of the filter, in metres at the receiver
     if (extent > 0.0) {
-        const int kBlockers = 8;
+        const int kBlockers = 5;
         // No blocker nearer to the light than the map's near plane can widen the penumbra further than this.
         float nearest = lightMapDistance(view, 0.0);
         float reach = directional ? extent * max(at.distance - nearest, 0.0)
@@ -88,7 +88,6 @@ float lightMapVisibility(LightView view, vec3 p, vec3 n, vec3 l, float extent, f
         if (count == 0.0) return compareLightMap(view.layer, at, vec2(0.0));
         float blocker = sum / count, gap = max(at.distance - blocker, 0.0);
         radius = directional ? extent * gap : extent * gap / max(blocker, 1e-6);
-        // A light at finite distance throws the receiver's penumbra back onto the map's plane at the receiver.
     }
     float filterTexels = clamp(radius / at.texel, 0.0, 48.0);
     if (filterTexels <= 1.0) {
@@ -99,7 +98,7 @@ float lightMapVisibility(LightView view, vec3 p, vec3 n, vec3 l, float extent, f
         }
         return 0.25 * lit;
     }
-    const int kTaps = 16;
+    const int kTaps = 9;
     float lit = 0.0;
     for (int i = 0; i < kTaps; ++i) lit += compareLightMap(view.layer, at, vogelDisc(i, kTaps) * filterTexels * texel);
     return lit / float(kTaps);

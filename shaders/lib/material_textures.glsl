@@ -6,6 +6,8 @@
 #define CUTIS_TEXTURE_ARRAY materialTextures
 #include "lib/texture_array.glsl"
 
+layout(constant_id = 1) const uint TEXTURE_SLOTS = 31;  // SLOT_ bits: lookups that no material makes are not compiled
+
 // Both texture coordinates of a point and their change over one texel or pixel.
 struct SurfaceUv {
     vec2 uv0, uv1;

@@ -15,6 +15,13 @@ const uint MATERIAL_TRANSLUCENT = 32u;
 const int MAX_TEXTURE_GROUPS = 16;
 const uint NO_CHART = 0xffffffffu;
 
+// Bits of the specialization constant TEXTURE_SLOTS: which textures any material of the scene has.
+const uint SLOT_BASE_COLOR = 1u;
+const uint SLOT_METALLIC_ROUGHNESS = 2u;
+const uint SLOT_NORMAL = 4u;
+const uint SLOT_OCCLUSION = 8u;
+const uint SLOT_EMISSIVE = 16u;
+
 // A texture as a layer of one of the bound arrays (textures of equal size, format and sampler share an array).
 struct TextureRef {
     int group;     // index into materialTextures; -1: no texture
@@ -95,6 +102,7 @@ struct LightSampleData {
     float range;    // 0: none
     float radius;   // of the source it stands for: metres, or radians when directional
     uint firstView;  // its views, one a receiver group
+    uint light;      // samples of one light are neighbours and share this number: its layer of lightVisibility
 };
 
 // A light map's camera.
@@ -116,6 +124,23 @@ struct ViewCamera {
     float exposure;
     vec3 forward;  // unit
     float pad;
+};
+
+// A piece of surface that a pixel sees, shaded once.
+struct ShadingPoint {
+    uint triangle;
+    uint pixel;    // x | y << 16, within the tile
+    uint offset;   // where in the pixel, two 16-bit fractions
+    float weight;  // share of the pixel; negative: lies behind the point before it
+};
+
+const uint POINT_DATA = 0x80000000u;  // bit of a list entry: this point fills the pixel's data channels
+
+// The light that a shading point sends to the eye.
+struct ShadedPoint {
+    vec3 diffuse;  // radiance; what is emitted counts as diffuse
+    float alpha;
+    vec3 specular;  // radiance
 };
 
 struct EnvironmentSettingsData {
