@@ -56,6 +56,25 @@ TEST_F(CommandsTest, ChainOfDispatchesSeesEachOthersWrites) {
     }
 }
 
+TEST_F(CommandsTest, OverwritingWaitsForReadersInOtherStages) {
+    using shared::Mixed;
+    const Buffer source(device(), {.name = "source", .bytes = 2 * sizeof(Mixed)});
+    const Program& program = device().program("interop.comp");
+    std::vector<Buffer> targets;
+    std::vector<Readback> results;
+    Commands commands = device().begin();
+    for (int round = 0; round < 4; ++round) {
+        // Written by a copy, read in compute, written by the next copy: nothing but the read orders the two.
+        const Mixed mixed{{0, 0, 0}, float(round), glm::mat3(0), {0, 0}, {0, 0, 0}};
+        targets.emplace_back(device(), BufferDesc{.name = "target", .bytes = 40});
+        commands.upload(source, std::vector{mixed, mixed});
+        commands.dispatch(program, {{"Source", source}, {"Target", targets.back()}}, mixed, {});
+    }
+    for (const Buffer& target : targets) results.push_back(commands.readback(target));
+    commands.submitAndWait();
+    for (int round = 0; round < 4; ++round) EXPECT_EQ(results[round].as<float>()[6], float(round));
+}
+
 TEST_F(CommandsTest, LayersAndMipsAreIndependent) {
     // Layer to layer and mip to mip of one image: each part has its own layout and history.
     const Image image = makeImage("parts", 16, 16, 3, 2);
