@@ -39,12 +39,13 @@ layout(binding = 18) uniform sampler2DArrayShadow lightDepthCompare;
 layout(binding = 19) uniform sampler2DArray lightDepth;
 #endif
 #ifdef ENVIRONMENT
-layout(binding = 20) uniform samplerCube environmentIrradiance;
 layout(binding = 21) uniform samplerCube environmentRadiance;
 layout(binding = 22, scalar) readonly buffer EnvironmentBuffer { EnvironmentSettingsData environment; };
 #ifdef SKIN
+#define ENVIRONMENT_SPECULAR_ONLY
 layout(binding = 23) uniform sampler2D openSky;
 #else
+layout(binding = 20) uniform samplerCube environmentIrradiance;
 layout(binding = 24, scalar) readonly buffer ProbeBuffer { vec4 probes[]; };
 #endif
 #endif

@@ -2,7 +2,7 @@
 // scaled at run time.
 //
 // The includer declares, before this file,
-//   samplerCube environmentIrradiance, environmentRadiance;
+//   samplerCube environmentIrradiance, environmentRadiance;   (only the latter with ENVIRONMENT_SPECULAR_ONLY)
 //   EnvironmentSettingsData environment;                    (shared/scene.h)
 //   float environmentVisibility(vec3 direction);            (share of the light from there that arrives)
 // and, for skin, ALBEDO_TABLE as lib/skin_specular.glsl wants it.
@@ -20,10 +20,12 @@ vec3 toEnvironment(vec3 d) {
                 environment.sinRotation * d.x + environment.cosRotation * d.z);
 }
 
+#ifndef ENVIRONMENT_SPECULAR_ONLY
 // ∫ L (N·ω) dω over the upper hemisphere, nothing occluded.
 vec3 environmentIrradianceAt(vec3 n) {
     return textureLod(environmentIrradiance, toEnvironment(n), 0.0).rgb * environment.intensity;
 }
+#endif
 
 // Level of the radiance cube whose lobe has that σ in radians: between two levels by variance.
 float environmentLevel(float sigma) {
