@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
@@ -94,6 +95,45 @@ OIIO::ImageSpec straightAlpha() {
     return config;
 }
 
+std::uint32_t bigEndian(std::span<const std::byte> bytes, std::size_t at) {
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < 4; ++i) word = word << 8 | std::to_integer<std::uint32_t>(bytes[at + i]);
+    return word;
+}
+
+// CRC-32 of ISO 3309, as PNG chunks carry it.
+std::uint32_t crc32(std::span<const std::byte> bytes) {
+    static const auto table = [] {
+        std::array<std::uint32_t, 256> entries;
+        for (std::uint32_t i = 0; i < 256; ++i) {
+            entries[i] = i;
+            for (int bit = 0; bit < 8; ++bit)
+                entries[i] = entries[i] >> 1 ^ (entries[i] & 1 ? 0xedb88320u : 0);
+        }
+        return entries;
+    }();
+    std::uint32_t crc = ~0u;
+    for (const std::byte b : bytes) crc = table[(crc ^ std::to_integer<std::uint32_t>(b)) & 0xff] ^ crc >> 8;
+    return ~crc;
+}
+
+// Refuses a truncated or damaged PNG before libpng does, which would print lines of its own on stderr.
+void checkPng(std::span<const std::byte> file, const std::string& name) {
+    constexpr std::size_t kSignature = 8, kFrame = 12;  // length, type and CRC of a chunk
+    constexpr std::uint32_t kEnd = 0x49454e44;          // IEND
+    for (std::size_t at = kSignature;;) {
+        if (at + kFrame > file.size() || bigEndian(file, at) > file.size() - at - kFrame) {
+            refuse(name, "the PNG is truncated");
+        }
+        const std::size_t length = bigEndian(file, at);
+        if (crc32(file.subspan(at + 4, length + 4)) != bigEndian(file, at + 8 + length)) {
+            refuse(name, "the PNG is damaged: a checksum does not fit");
+        }
+        if (bigEndian(file, at + 4) == kEnd) return;
+        at += kFrame + length;
+    }
+}
+
 // A reader for a file in memory. ImageInput::open would look for the file on disk.
 std::unique_ptr<OIIO::ImageInput> openMemory(const std::string& format, OIIO::Filesystem::IOProxy& proxy,
                                              const std::string& name) {
@@ -126,6 +166,7 @@ std::string imageFormat(std::span<const std::byte> file) {
 Image decodeImage(std::span<const std::byte> file, const std::string& name, bool* floatFile) {
     const std::string format = imageFormat(file);
     if (format.empty()) refuse(name, "not an image of a known format");
+    if (format == "png") checkPng(file, name);
     OIIO::Filesystem::IOMemReader reader(const_cast<std::byte*>(file.data()), file.size());
     // The reader is chosen by content: the extension of a file or the MIME type of a buffer may be wrong.
     const auto input = openMemory(format, reader, name);

@@ -1,0 +1,71 @@
+#include "renderer/scene/environment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "renderer/scene/picture.h"
+#include "renderer/scene/tonemap.h"
+#include "tests/support/process.h"
+#include "warnings.h"
+
+namespace cutis {
+namespace {
+
+Picture makePicture(int width, int height, int channels, float value) {
+    Picture picture{width, height, channels, {}};
+    picture.values.assign(std::size_t(width) * height * channels, value);
+    return picture;
+}
+
+TEST(Environment, RowsStartAtTheTop) {
+    const test::TemporaryFolder folder;
+    Picture picture = makePicture(3, 2, 3, 0);
+    for (int i = 0; i < 18; ++i) picture.values[i] = float(i * 100);
+    writeExr(folder / "sky.exr", picture);
+    const test::CapturedWarnings warnings;
+    const Environment environment = loadEnvironment(folder / "sky.exr");
+    EXPECT_EQ(environment.name, "sky.exr");
+    EXPECT_EQ(environment.width, 3);
+    EXPECT_EQ(environment.height, 2);
+    ASSERT_EQ(environment.radiance.size(), 6u);
+    EXPECT_EQ(environment.radiance[0], glm::vec3(0, 100, 200));
+    EXPECT_EQ(environment.radiance[5], glm::vec3(1500, 1600, 1700));
+    EXPECT_TRUE(warnings.all().empty());
+}
+
+TEST(Environment, IsSanitizedWithOneWarning) {
+    const test::TemporaryFolder folder;
+    const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
+    Picture picture = makePicture(2, 2, 4, 1);
+    picture.values = {nan, 1, 2, 1, -3, -inf, 5, 1, inf, 33952, inf, 1, 0, nan, -0.f, 1};
+    writeExr(folder / "bad.exr", picture);
+    const test::CapturedWarnings warnings;
+    const Environment environment = loadEnvironment(folder / "bad.exr");
+    const std::vector<glm::vec3> expected{{0, 1, 2}, {0, 0, 5}, {33952, 33952, 33952}, {0, 0, 0}};
+    EXPECT_EQ(environment.radiance, expected);
+    ASSERT_EQ(warnings.all().size(), 1u);
+    EXPECT_EQ(warnings.count("2 NaN and 2 negative values become 0, 2 infinite"), 1) << warnings.all()[0];
+}
+
+TEST(Environment, OneChannelIsGreyAndIntegersAreSrgb) {
+    const test::TemporaryFolder folder;
+    writeExr(folder / "grey.exr", makePicture(2, 1, 1, 7));
+    EXPECT_EQ(loadEnvironment(folder / "grey.exr").radiance[1], glm::vec3(7));
+    // Black stays black and white white under the tone curve's 0.04 and its shoulder; grey tells the transfer
+    // apart.
+    writePng(folder / "grey.png", makePicture(2, 1, 3, 0.24f), 0);
+    EXPECT_NEAR(loadEnvironment(folder / "grey.png").radiance[0].r, 0.2f, 0.004f);
+}
+
+TEST(Environment, WhatIsNoneIsRefused) {
+    const test::TemporaryFolder folder;
+    EXPECT_THROW(loadEnvironment(folder / "absent.exr"), Error);
+    EXPECT_THROW(loadEnvironment(folder.path()), Error);
+    writePng(folder / "tall.png", makePicture(1, kMaxEnvironmentHeight + 1, 1, 0), 0);
+    EXPECT_THROW(loadEnvironment(folder / "tall.png"), Error);
+}
+
+}  // namespace
+}  // namespace cutis
