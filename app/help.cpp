@@ -81,7 +81,12 @@ std::string commandHelp(const Command& command) {
     }
     std::string_view group;
     for (const Option* option : known) {
-        if (option->group != group) help += '\n' + std::string(group = option->group) + ":\n";
+        if (option->group != group) {
+            group = option->group;
+            help += '\n';
+            help += group;
+            help += ":\n";
+        }
         std::string names(option->names);
         if (const std::size_t comma = names.find(','); comma != std::string::npos)
             names.insert(comma + 1, " ");
