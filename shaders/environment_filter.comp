@@ -12,7 +12,7 @@ layout(binding = 1, rgba32f) writeonly uniform image2DArray target;  // six face
 
 layout(push_constant, scalar) uniform Push {
     float sigma;  // radians
-    float step;   // radians between samples: a texel of the source
+    float step;   // radians between samples
 } push;
 
 void main() {
@@ -21,7 +21,7 @@ void main() {
     if (at.x >= size || at.y >= size) return;
     vec3 n = normalize(cubeDirection(cubeFace(at.z), cubeTexelCentre(at.xy, size)));
     mat3 frame = frameAlong(n, vec3(0.0));
-    float reach = min(3.5 * push.sigma, 3.1);
+    float reach = min(3.2 * push.sigma, 3.1);
     int count = int(reach / push.step);
     vec3 sum = vec3(0.0);
     float total = 0.0;

@@ -1,9 +1,9 @@
 #version 460
-// Irradiance of the environment for every normal: the sum over its clusters. With MATTE, the part of it that skin of one
-// roughness reflects specularly (DESIGN §1.1).
+// Irradiance of the environment for every normal: a sum over its clusters. With MATTE, the part of it that skin of one
+// roughness reflects specularly (DESIGN §1.1). With FINE, on top of the interpolated sum of other clusters.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// features: MATTE
+// features: MATTE FINE
 #include "shared/environment.h"
 #include "lib/sampling.glsl"
 
@@ -16,9 +16,12 @@ layout(binding = 2, scalar) readonly buffer AlbedoTableBuffer { float albedoTabl
 #define ALBEDO_TABLE(i) albedoTable[i]
 #include "lib/skin_specular.glsl"
 #endif
+#ifdef FINE
+layout(binding = 3) uniform samplerCube coarse;
+#endif
 
 layout(push_constant, scalar) uniform Push {
-    uint sourceCount;
+    uint first, count;    // of `sources`
     float largestAlbedo;  // 1/s: what ρ_dt is cut off at
 } push;
 
@@ -28,8 +31,11 @@ void main() {
     if (at.x >= size || at.y >= size) return;
     vec3 n = normalize(cubeDirection(cubeFace(at.z), cubeTexelCentre(at.xy, size)));
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < push.sourceCount; ++i) {
-        EnvironmentSource source = sources[i];
+#ifdef FINE
+    sum = textureLod(coarse, n, 0.0).rgb;
+#endif
+    for (uint i = 0u; i < push.count; ++i) {
+        EnvironmentSource source = sources[push.first + i];
         float cosine = dot(n, source.mean);
         if (cosine <= 0.0) continue;
 #ifdef MATTE

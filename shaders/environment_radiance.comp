@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform Push {
     uint peakCount;
 } push;
 
-const int kSamples = 4;  // along each axis
+const int kSamples = 3;  // along each axis
 const float kPi = 3.14159265358979;
 
 vec3 lookUp(vec3 d) {

@@ -91,6 +91,8 @@ EntryPoint findEntry(LightView view, vec3 p, vec3 n, vec3 l, float rayScale, uin
         }
         vec2 texelPlace = unpackUnorm2x16(packed) * atlasSize;
         float texelDepth = lightMapDistance(view, texelFetch(lightDepth, texel, 0).x);
+        // Just beyond a silhouette the map may miss it and show what lies behind the point: no way in for its light.
+        if (texelDepth > here) continue;
         if (w > nearest) nearest = w, nearestPlace = texelPlace, nearestDepth = texelDepth;
         if (reference.x < 0.0) reference = texelPlace;
         if (distance(reference, texelPlace) > 16.0) together = false;
@@ -98,7 +100,7 @@ EntryPoint findEntry(LightView view, vec3 p, vec3 n, vec3 l, float rayScale, uin
         depth += w * texelDepth;
         weight += w;
     }
-    if (nearestDepth < 0.0) return none;
+    if (nearestDepth < 0.0 || weight == 0.0) return none;
     if (together) {
         place /= weight;
         depth /= weight;

@@ -16,7 +16,7 @@ namespace cutis {
 namespace {
 
 constexpr const char* kCacheKind = "environment";
-constexpr std::uint64_t kCacheVersion = 1;  // grows with every change of what the shaders write
+constexpr std::uint64_t kCacheVersion = 2;  // grows with every change of what the shaders write
 
 template <class T>
 std::uint64_t hashValue(const T& value, std::uint64_t seed) {
@@ -111,33 +111,44 @@ class Prefilter {
     }
 
     void makeIrradiance(EnvironmentMaps& maps, std::span<const SkinSpecular> skins) {
-        struct Push {
-            std::uint32_t sourceCount;
-            float largestAlbedo;
-        };
-        const std::vector<shared::EnvironmentSource> sources = environmentSources(environment_);
-        const std::uint32_t size = irradianceFaceSize(sources);
-        const gpu::Buffer buffer = uploaded("environment clusters", sources);
-        const auto count = std::uint32_t(sources.size());
-        maps.irradiance = makeCube(device_, "environment irradiance", size, 1, 1);
-        fill(maps.irradiance, hashValue(size, key_), [&] {
-            const gpu::Program& program = device_.program("environment_irradiance.comp");
-            commands_.dispatch(program, {{"SourceBuffer", buffer}, {"target", maps.irradiance}},
-                               Push{count, 0}, groupsForCube(program, size));
-        });
+        const EnvironmentSources sources = environmentSources(environment_);
+        const gpu::Buffer buffer = uploaded("environment clusters", sources.sources);
+        const std::uint64_t key = hashValue(sources.face, key_);
+        maps.irradiance = makeCube(device_, "environment irradiance", sources.face, 1, 1);
+        fill(maps.irradiance, key, [&] { sumSources(sources, buffer, nullptr, maps.irradiance); });
         if (skins.empty()) return;
-        maps.matte = makeCube(device_, "environment matte", size, std::uint32_t(skins.size()), 1);
+        maps.matte = makeCube(device_, "environment matte", sources.face, std::uint32_t(skins.size()), 1);
         for (std::uint32_t i = 0; i < skins.size(); ++i) {
             const gpu::ImageView cube = maps.matte.layers(6 * i, 6);
-            fill(cube, hashValue(skins[i], hashValue(size, key_)), [&] {
-                const gpu::Buffer row =
-                    uploaded("albedo row", skin::directionalAlbedoRow(skins[i].roughness));
-                const gpu::Program& program = device_.program("environment_irradiance.comp+MATTE");
-                commands_.dispatch(
-                    program, {{"SourceBuffer", buffer}, {"target", cube}, {"AlbedoTableBuffer", row}},
-                    Push{count, 1 / std::max(skins[i].scale, 1e-6f)}, groupsForCube(program, size));
-            });
+            fill(cube, hashValue(skins[i], key), [&] { sumSources(sources, buffer, &skins[i], cube); });
         }
+    }
+
+    // Irradiance, or the matte of `skin`: faint sources on a coarse cube, then all of it on the target.
+    void sumSources(const EnvironmentSources& sources, const gpu::Buffer& buffer, const SkinSpecular* skin,
+                    const gpu::ImageView& target) {
+        struct Push {
+            std::uint32_t first, count;
+            float largestAlbedo;
+        };
+        const std::string variant = skin ? "+MATTE" : "";
+        const float largestAlbedo = skin ? 1 / std::max(skin->scale, 1e-6f) : 0;
+        const gpu::Image coarse = makeCube(device_, "coarse irradiance", kCoarseFace, 1, 1);
+        gpu::Bindings bindings{{"SourceBuffer", buffer}, {"target", coarse}};
+        gpu::Buffer row;
+        if (skin) {
+            row = uploaded("albedo row", skin::directionalAlbedoRow(skin->roughness));
+            bindings.push_back({"AlbedoTableBuffer", row});
+        }
+        const gpu::Program& program = device_.program("environment_irradiance.comp" + variant);
+        commands_.dispatch(program, bindings, Push{0, sources.faint, largestAlbedo},
+                           groupsForCube(program, kCoarseFace));
+        bindings[1] = {"target", target};
+        bindings.push_back({"coarse", gpu::sampled(coarse, device_.sampler())});
+        const gpu::Program& fine = device_.program("environment_irradiance.comp" + variant + "+FINE");
+        const auto bright = std::uint32_t(sources.sources.size()) - sources.faint;
+        commands_.dispatch(fine, bindings, Push{sources.faint, bright, largestAlbedo},
+                           groupsForCube(fine, sources.face));
     }
 
     void makeRadiance(EnvironmentMaps& maps) {
@@ -148,21 +159,21 @@ class Prefilter {
         maps.radiance = makeCube(device_, "environment radiance", size, 1, levels);
         fill(maps.radiance, hashValue(levels, hashValue(size, key_)), [&] {
             resample(maps.radiance.mip(0));
-            const VkSampler sampler = device_.sampler();
-            double sigma = shared::ENVIRONMENT_SPREAD_0;
+            const gpu::Program& program = device_.program("environment_filter.comp");
+            double previous = shared::ENVIRONMENT_SPREAD_0;
             for (std::uint32_t level = 1; level < levels; ++level) {
-                // Variances of the source, of its interpolation (a sixth of a texel squared on average) and
-                // of this step's lobe add up to that of the level.
-                const double texel = 2.0 / (size >> (level - 1));
-                const double wanted = shared::ENVIRONMENT_SPREAD * std::exp2(level);
-                const double interpolated = level == 1 ? 0 : texel * texel / 6;
-                const double own = std::sqrt(wanted * wanted - sigma * sigma - interpolated);
-                sigma = wanted;
-                const gpu::Program& program = device_.program("environment_filter.comp");
+                // Variances add up: what the interpolated source has, this step's lobe, and interpolation of
+                // the result, a sixth of a texel squared along each axis on average.
+                const double wanted = shared::ENVIRONMENT_SPREAD * std::exp2(level),
+                             texel = 2.0 / (size >> level);
+                const double lobe = std::sqrt(wanted * wanted - previous * previous - texel * texel / 6);
+                previous = wanted;
+                // Level 0 is as sharp as its texels; the others are smooth over two of theirs.
+                const double step = level == 1 ? texel / 2 : texel;
                 commands_.dispatch(program,
-                                   {{"source", gpu::sampled(maps.radiance.mip(level - 1), sampler)},
+                                   {{"source", gpu::sampled(maps.radiance.mip(level - 1), device_.sampler())},
                                     {"target", maps.radiance.mip(level)}},
-                                   FilterPush{float(own), float(texel)},
+                                   FilterPush{float(lobe), float(step)},
                                    groupsForCube(program, size >> level));
             }
         });

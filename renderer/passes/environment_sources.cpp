@@ -1,59 +1,62 @@
 #include "renderer/passes/environment_sources.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numbers>
 
+#include "renderer/core/parallel.h"
 #include "renderer/scene/environment_cells.h"
 #include "renderer/scene/environment_clusters.h"
 
 namespace cutis {
 namespace {
 
-constexpr std::size_t kMaxPeaks = 512;
+constexpr std::size_t kMaxPeaks = 256;
 constexpr double kPeakOverMean = 8;
-constexpr double kTerminatorTolerance = 0.004;
+constexpr double kNearby = 0.03;             // radians: sources this near share a terminator
+constexpr double kCoarseTolerance = 0.0015;  // of the mean irradiance: error that faint sources may leave,
+constexpr double kFineTolerance = 0.006;     // and bright ones
 
 double sum(const glm::vec3& v) {
     return double(v.x) + v.y + v.z;
 }
 
-// Largest flux (R+G+B) within a few texels of any bright source: what one terminator carries.
-double brightestNeighbourhood(std::span<const shared::EnvironmentSource> sources) {
-    constexpr std::size_t kCandidates = 64;
-    constexpr float kNear = 0.9998f;  // cos 0.02
-    std::vector<const shared::EnvironmentSource*> brightest;
-    for (const auto& source : sources) brightest.push_back(&source);
-    const std::size_t count = std::min(kCandidates, brightest.size());
-    std::partial_sort(brightest.begin(), brightest.begin() + std::ptrdiff_t(count), brightest.end(),
-                      [](auto* a, auto* b) { return sum(a->flux) > sum(b->flux); });
-    double largest = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        double flux = 0;
-        for (const auto& other : sources)
-            if (glm::dot(brightest[i]->mean, other.mean) > kNear) flux += sum(other.flux);
-        largest = std::max(largest, flux);
-    }
-    return largest;
+// Error of interpolation across the terminator of that much flux, over the mean irradiance; a face has 2/size
+// per texel at its centre.
+double terminatorError(double flux, double mean, std::uint32_t size) {
+    return flux * (2.0 / size) / 4 / mean;
 }
 
 }  // namespace
 
-std::vector<shared::EnvironmentSource> environmentSources(const Environment& environment) {
-    std::vector<shared::EnvironmentSource> sources;
-    for (const EnvironmentCluster& cluster : clusterEnvironment(environment))
-        sources.push_back({glm::vec3(cluster.flux), glm::vec3(cluster.centroid)});
-    return sources;
-}
-
-std::uint32_t irradianceFaceSize(std::span<const shared::EnvironmentSource> sources) {
+EnvironmentSources environmentSources(const Environment& environment) {
+    EnvironmentSources result;
     double total = 0;
-    for (const auto& source : sources) total += sum(source.flux);
+    for (const EnvironmentCluster& cluster : clusterEnvironment(environment)) {
+        result.sources.push_back({glm::vec3(cluster.flux), glm::vec3(cluster.centroid)});
+        total += sum(result.sources.back().flux);
+    }
     const double mean = total / 4;  // the mean of max(cosθ, 0) over the sphere is 1/4
-    const double largest = brightestNeighbourhood(sources);
-    for (const std::uint32_t size : {64u, 128u})
-        if (largest * (2.0 / size) / 4 <= kTerminatorTolerance * mean) return size;
-    return 256;
+    const float near = float(std::cos(kNearby));
+    std::vector<double> nearby(result.sources.size(), 0);  // flux around each source
+    parallelFor(nearby.size(), [&](std::size_t i) {
+        for (const shared::EnvironmentSource& other : result.sources)
+            if (glm::dot(result.sources[i].mean, other.mean) > near) nearby[i] += sum(other.flux);
+    });
+    std::vector<shared::EnvironmentSource> faint, bright;
+    for (std::size_t i = 0; i < nearby.size(); ++i)
+        (terminatorError(nearby[i], mean, kCoarseFace) <= kCoarseTolerance ? faint : bright)
+            .push_back(result.sources[i]);
+    result.faint = std::uint32_t(faint.size());
+    result.sources = std::move(faint);
+    result.sources.insert(result.sources.end(), bright.begin(), bright.end());
+
+    const double largest = nearby.empty() ? 0 : *std::max_element(nearby.begin(), nearby.end());
+    result.face = 256;
+    for (const std::uint32_t size : {128u, 64u})
+        if (terminatorError(largest, mean, size) <= kFineTolerance) result.face = size;
+    return result;
 }
 
 EnvironmentPeaks separatePeaks(const Environment& environment) {

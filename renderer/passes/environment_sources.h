@@ -12,13 +12,16 @@
 
 namespace cutis {
 
-// All light of the environment as clusters (renderer/scene/environment_clusters.h).
-std::vector<shared::EnvironmentSource> environmentSources(const Environment& environment);
-
-// Texels along a face of the irradiance cube: the fewest of 64, 128 and 256 that keep interpolation across
-// the terminator of the brightest source within 0.4 % of the mean irradiance. Interpolating max(cosθ, 0) in
-// steps of h is wrong by up to h/4.
-std::uint32_t irradianceFaceSize(std::span<const shared::EnvironmentSource> sources);
+// All light of an environment in clusters (renderer/scene/environment_clusters.h). Interpolating max(cosθ, 0)
+// between normals h apart is wrong by up to h/4 at the terminator, so sources that are bright together need a
+// finer map of irradiance than the others.
+struct EnvironmentSources {
+    std::vector<shared::EnvironmentSource> sources;  // faint ones first
+    std::uint32_t faint = 0;  // so many of them: a face of kCoarseFace texels is enough
+    std::uint32_t face = 0;   // texels along a face that are enough for the bright ones
+};
+inline constexpr std::uint32_t kCoarseFace = 32;
+EnvironmentSources environmentSources(const Environment& environment);
 
 // An environment of at most 1024×512 texels as two parts that add up to it.
 struct EnvironmentPeaks {
@@ -28,7 +31,7 @@ struct EnvironmentPeaks {
         peaks;  // the light taken out of the brightest texels, each a source
 };
 
-// Peaks are what exceeds the 512th brightest texel, or 8 times the mean where that is more.
+// Peaks are what exceeds the 256th brightest texel, or 8 times the mean where that is more.
 EnvironmentPeaks separatePeaks(const Environment& environment);
 
 }  // namespace cutis
