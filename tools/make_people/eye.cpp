@@ -137,10 +137,12 @@ Raster makeEyeColors(const Raster& picture) {
             const double corner = std::clamp((r - kPictureIris * 1.1) / (kPictureBall * 0.45), 0.0, 1.0);
             // Sclera reflects about 60 % and is warmer towards the corners, where the conjunctiva is thicker.
             const glm::dvec3 white =
-                glm::mix(glm::dvec3(0.78, 0.80, 0.82), glm::dvec3(0.72, 0.62, 0.58), corner);
+                glm::mix(glm::dvec3(0.78, 0.80, 0.82), glm::dvec3(0.74, 0.66, 0.63), corner);
+            // The painted irises are more colourful than real ones: pull them towards their own grey.
+            const double grey = 0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2];
             for (int c = 0; c < 3; ++c) {
-                const double factor = sclera * white[c] + (1 - sclera);
-                out.at(x, y)[c] = float(texel[c] * factor);
+                const double iris = 0.9 * glm::mix(grey, double(texel[c]), 0.55);
+                out.at(x, y)[c] = float(glm::mix(iris, texel[c] * white[c], sclera));
             }
         }
     return out;

@@ -58,15 +58,16 @@ int GltfFile::addAccessor(const std::vector<float>& values, int components, bool
     return add("accessors", accessor);
 }
 
-int GltfFile::addTexture(const std::string& imageUri) {
+int GltfFile::addTexture(const std::string& imageUri, bool repeat) {
     if (!root_.contains("samplers")) {
-        constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kClamp = 33071;
-        add("samplers", {{"magFilter", kLinear},
-                         {"minFilter", kLinearMipmapLinear},
-                         {"wrapS", kClamp},
-                         {"wrapT", kClamp}});
+        constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kClamp = 33071, kRepeat = 10497;
+        for (const int wrap : {kClamp, kRepeat})
+            add("samplers", {{"magFilter", kLinear},
+                             {"minFilter", kLinearMipmapLinear},
+                             {"wrapS", wrap},
+                             {"wrapT", wrap}});
     }
-    return add("textures", {{"sampler", 0}, {"source", add("images", {{"uri", imageUri}})}});
+    return add("textures", {{"sampler", repeat ? 1 : 0}, {"source", add("images", {{"uri", imageUri}})}});
 }
 
 int GltfFile::addMesh(const std::string& name, const TriangleMesh& mesh, int material) {

@@ -24,9 +24,10 @@ int addCamera(GltfFile& file, const std::string& name, double yfov, const glm::d
                          {"rotation", {q.x, q.y, q.z, q.w}}});
 }
 
-void makeScene(const fs::path& recipePath, const Sources& sources, const fs::path& folder) {
+void makeScene(const fs::path& recipePath, const fs::path& makeHuman, const fs::path& morseRig,
+               const fs::path& folder) {
     const Recipe recipe = readRecipe(recipePath);
-    const BaseMesh base = loadBaseMesh(sources.makeHuman);
+    const Sources sources = readSources(makeHuman, morseRig);
     fs::create_directories(folder);
 
     // The group camera: 16:9, level with the faces, far enough to keep perspective kind to them.
@@ -40,7 +41,7 @@ void makeScene(const fs::path& recipePath, const Sources& sources, const fs::pat
     file.setCopyright("Made from MakeHuman data (CC0); see scenes/LICENSES.md of cutis");
     std::vector<int> roots;
     for (const PersonRecipe& person : recipe.people) {
-        roots.push_back(addPerson(file, folder, sources, base, person, recipe, groupCamera));
+        roots.push_back(addPerson(file, folder, sources, person, recipe, groupCamera));
         std::printf("make_people: %s\n", person.name.c_str());
         std::fflush(stdout);
     }
@@ -67,7 +68,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        makeScene(argv[1], {argv[2], argv[3]}, argv[4]);
+        makeScene(argv[1], argv[2], argv[3], argv[4]);
         return 0;
     } catch (const std::exception& e) {
         std::fprintf(stderr, "make_people: error: %s\n", e.what());

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "eye.h"
+#include "garment.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
 #include "skin_map.h"
@@ -16,9 +17,15 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kMetres = 0.1;  // MakeHuman's unit
-// Where MakeHuman put the 2048² skin map in morse's human_rig.blend, once decompressed.
-constexpr std::size_t kMorseMapOffset = 11420240;
+constexpr double kMetres = 0.1;            // MakeHuman's unit
+constexpr const char* kFineMap = "morse";  // how a recipe names the 2048² map
+
+// Each person's own noise.
+unsigned seedOf(const PersonRecipe& person) {
+    unsigned seed = 0;
+    for (const char c : person.name) seed = seed * 31 + static_cast<unsigned char>(c);
+    return seed;
+}
 
 ordered_json vector(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
@@ -27,56 +34,95 @@ ordered_json quaternion(const glm::dquat& q) {
     return {q.x, q.y, q.z, q.w};
 }
 
-// How much each vertex follows the head: all of it above the neck, a part of it along the neck.
-std::vector<double> headWeights(const BaseMesh& base) {
-    const auto follows = [](const std::string& bone) {
+// How much each vertex follows the head and the arms: all of it beyond the joint, a part of it around the
+// joint.
+struct Following {
+    std::vector<double> head, leftArm, rightArm;
+};
+
+Following computeFollowing(const BaseMesh& base) {
+    const auto begins = [](const std::string& bone, auto... names) {
+        return (bone.starts_with(names) || ...);
+    };
+    const auto neck = [](const std::string& bone) {
         constexpr std::pair<const char*, double> kNeck[] = {
             {"neck01", 0.2}, {"neck02", 0.5}, {"neck03", 0.8}};
         for (const auto& [name, share] : kNeck)
             if (bone.starts_with(name)) return share;
-        constexpr const char* kBody[] = {"root",     "spine",    "pelvis",   "clavicle", "shoulder",
-                                         "upperarm", "lowerarm", "wrist",    "metac",    "finger",
-                                         "breast",   "upperleg", "lowerleg", "foot",     "toe"};
-        for (const char* name : kBody)
-            if (bone.starts_with(name)) return 0.0;
         return 1.0;
     };
-    std::vector<double> weights(base.mesh.positions.size());
-    for (std::size_t i = 0; i < weights.size(); ++i)
+    Following out;
+    const std::size_t count = base.mesh.positions.size();
+    out.head.resize(count);
+    out.leftArm.resize(count);
+    out.rightArm.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
         for (int k = 0; k < 4; ++k) {
             const double w = base.boneWeights[i][k];
-            if (w > 0) weights[i] += w * follows(base.bones.at(base.boneIndices[i][k]));
+            const std::string& bone = base.bones.at(base.boneIndices[i][k]);
+            if (w <= 0) continue;
+            if (begins(bone, "upperarm", "lowerarm", "wrist", "metac", "finger"))
+                (bone.find(".L") != std::string::npos ? out.leftArm : out.rightArm)[i] += w;
+            else if (!begins(bone, "root", "spine", "pelvis", "clavicle", "shoulder", "breast", "upperleg",
+                             "lowerleg", "foot", "toe"))
+                out.head[i] += w * neck(bone);
         }
-    return weights;
+    return out;
 }
 
-// The body in metres with its origin between the eyes, the head turned on the neck.
+// The body in metres with its origin between the eyes, the head turned on the neck and the arms hanging.
 struct Pose {
-    glm::dvec3 origin, pivot;  // decimetres
-    glm::dquat head;
+    glm::dvec3 origin, neck, leftShoulder, rightShoulder;  // decimetres
+    glm::dquat head, leftArm, rightArm;
 
-    glm::dvec3 apply(const glm::dvec3& p, double weight) const {
-        const glm::dquat turn = glm::slerp(glm::dquat(1, 0, 0, 0), head, weight);
-        return kMetres * (turn * (p - pivot) + pivot - origin);
+    glm::dvec3 applyHead(const glm::dvec3& p, double weight) const {
+        return kMetres * (rotate(p, neck, head, weight) - origin);
+    }
+    glm::dvec3 apply(glm::dvec3 p, const Following& following, std::size_t i) const {
+        p = rotate(p, leftShoulder, leftArm, following.leftArm[i]);
+        p = rotate(p, rightShoulder, rightArm, following.rightArm[i]);
+        return applyHead(p, following.head[i]);
+    }
+
+  private:
+    static glm::dvec3 rotate(const glm::dvec3& p, const glm::dvec3& pivot, const glm::dquat& q,
+                             double weight) {
+        return glm::slerp(glm::dquat(1, 0, 0, 0), q, weight) * (p - pivot) + pivot;
     }
 };
 
-// A bust: head, neck and shoulders, without the insides of mouth and eye sockets and without arms.
-QuadMesh selectBust(const BaseMesh& base, const std::vector<glm::dvec3>& positions) {
-    constexpr double kCut = 4.3,
-                     kArms = 2.45;  // decimetres on the base mesh, whose edge loops run along these cuts
+// Faces of the body that keep(base position, texture coordinate) wants at all four corners, on `positions`.
+template <class Keep>
+QuadMesh selectBody(const BaseMesh& base, const std::vector<glm::dvec3>& positions, const Keep& keep) {
     const auto body = std::find(base.groups.begin(), base.groups.end(), "body") - base.groups.begin();
     QuadMesh mesh = base.mesh;
     mesh.positions = positions;
     return selectFaces(mesh, [&](std::size_t f) {
         if (base.faceGroup[f] != body) return false;
         const QuadMesh::Face& face = base.mesh.faces[f];
-        for (int k = 0; k < 4; ++k) {
-            const glm::dvec3& p = base.mesh.positions[face.vertex[k]];
-            const glm::dvec2& uv = base.mesh.uvs[face.uv[k]];
-            if (p.y < kCut || std::abs(p.x) > kArms || !(onHead(uv) || onShoulders(uv))) return false;
-        }
+        for (int k = 0; k < 4; ++k)
+            if (!keep(base.mesh.positions[face.vertex[k]], base.mesh.uvs[face.uv[k]])) return false;
         return true;
+    });
+}
+
+// Head, neck and what a shirt leaves bare, with a margin under the cloth; without the insides of mouth and
+// eye sockets.
+QuadMesh selectSkin(const BaseMesh& base, const std::vector<glm::dvec3>& positions,
+                    const ShirtRecipe& shirt) {
+    constexpr double kMargin = 0.035;  // metres
+    return selectBody(base, positions, [&](const glm::dvec3& p, const glm::dvec2& uv) {
+        return onHead(uv) || (onShoulders(uv) && belowNeckline(p, shirt.drop) < kMargin);
+    });
+}
+
+// The upper torso and the arms to above the elbow: what a shirt of a bust covers.
+QuadMesh selectTorso(const BaseMesh& base, const std::vector<glm::dvec3>& positions,
+                     const ShirtRecipe& shirt) {
+    constexpr double kWaist = 2.4, kElbow = 2.75, kMargin = 0.03;  // decimetres on the base mesh; metres
+    return selectBody(base, positions, [&](const glm::dvec3& p, const glm::dvec2& uv) {
+        return !onHead(uv) && p.y > kWaist && std::abs(p.x) < kElbow &&
+               belowNeckline(p, shirt.drop) > -kMargin;
     });
 }
 
@@ -95,12 +141,12 @@ int addMeshNode(GltfFile& file, const std::string& name, const TriangleMesh& mes
 
 int addSkin(GltfFile& file, const fs::path& folder, const Sources& sources, const PersonRecipe& person,
             const Recipe& recipe, const TriangleMesh& mesh) {
-    const Raster source = person.skin.map == "morse"
-                              ? readPackedColors(sources.morseSkin, kMorseMapOffset)
-                              : readColors(sources.makeHuman / "public/data/skins" / person.skin.map);
-    unsigned seed = 0;
-    for (const char c : person.name) seed = seed * 31 + unsigned(c);
-    const SkinMaps maps = makeSkinMaps(rasterizeSurfels(mesh, recipe.mapSize), source, person.skin, seed);
+    const bool fine = person.skin.map == kFineMap;
+    const Raster coarse =
+        fine ? Raster() : readColors(sources.makeHuman / "public/data/skins" / person.skin.map);
+    const SkinMaps maps =
+        makeSkinMaps(rasterizeSurfels(mesh, recipe.mapSize), fine ? sources.fineMap : coarse,
+                     fine ? nullptr : &sources.fineDetail, person.skin, seedOf(person));
     const std::string albedo = person.name + "-albedo.png", normal = person.name + "-normal.png";
     writePng8(folder / albedo, maps.albedo, true);
     writePng8(folder / normal, maps.normal, false);
@@ -140,20 +186,24 @@ int addEyes(GltfFile& file, const fs::path& folder, const Sources& sources, cons
 
 int addHair(GltfFile& file, const fs::path& folder, const Sources& sources, const std::string& person,
             const HairRecipe& hair, const BaseMesh& base, const std::vector<glm::dvec3>& positions,
-            const Pose& pose, const std::vector<double>& headWeight) {
+            const Pose& pose, const Following& following) {
     const Proxy proxy = loadProxy(sources.makeHuman, hair.proxy);
     QuadMesh fitted = fitProxy(proxy, base, positions);
     for (std::size_t i = 0; i < fitted.positions.size(); ++i) {
         double weight = 0;
-        for (int k = 0; k < 3; ++k) weight += proxy.weights[i][k] * headWeight.at(proxy.references[i][k]);
-        fitted.positions[i] = pose.apply(fitted.positions[i], std::clamp(weight, 0.0, 1.0));
+        for (int k = 0; k < 3; ++k) weight += proxy.weights[i][k] * following.head.at(proxy.references[i][k]);
+        fitted.positions[i] = pose.applyHead(fitted.positions[i], std::clamp(weight, 0.0, 1.0));
     }
     const std::string name = person + " " + fs::path(hair.proxy).filename().string();
     std::string image = name + ".png";
     std::replace(image.begin(), image.end(), ' ', '-');
     Raster colors = readColors(proxy.texture);
-    for (std::size_t i = 0; i < colors.values.size(); ++i)
-        if (i % colors.channels < 3) colors.values[i] *= float(hair.gain[int(i % colors.channels)]);
+    for (std::size_t i = 0; i < colors.values.size(); i += std::size_t(colors.channels)) {
+        float* texel = &colors.values[i];
+        const double grey = 0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2];
+        for (int c = 0; c < 3; ++c)
+            texel[c] = float(hair.gain[c] * glm::mix(grey, double(texel[c]), hair.saturation));
+    }
     writePng8(folder / image, colors, true);
 
     ordered_json material;
@@ -167,12 +217,34 @@ int addHair(GltfFile& file, const fs::path& folder, const Sources& sources, cons
     return addMeshNode(file, name, triangulate(fitted), file.addMaterial(material));
 }
 
+int addShirt(GltfFile& file, const fs::path& folder, const PersonRecipe& person, const TriangleMesh& mesh) {
+    constexpr int kTile = 256;
+    const char* image = "knit-normal.png";
+    if (!fs::exists(folder / image)) writePng8(folder / image, makeKnit(kTile), false);
+    ordered_json material;
+    material["name"] = person.name + " shirt";
+    const glm::dvec3& c = person.shirt.color;
+    material["pbrMetallicRoughness"] = {
+        {"baseColorFactor", {c.x, c.y, c.z, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.85}};
+    material["normalTexture"] = {{"index", file.addTexture(image, true)}};
+    material["doubleSided"] = true;
+    return addMeshNode(file, person.name + " shirt", mesh, file.addMaterial(material));
+}
+
 }  // namespace
 
-int addPerson(GltfFile& file, const fs::path& folder, const Sources& sources, const BaseMesh& base,
-              const PersonRecipe& person, const Recipe& recipe, const glm::dvec3& lookAt) {
+Sources readSources(const fs::path& makeHuman, const fs::path& morseRig) {
+    constexpr std::size_t kMapOffset = 11420240;  // of the PNG in morse's human_rig.blend, once decompressed
+    Sources sources{makeHuman, loadBaseMesh(makeHuman), readPackedColors(morseRig, kMapOffset), {}};
+    sources.fineDetail = computeDetail(sources.fineMap);
+    return sources;
+}
+
+int addPerson(GltfFile& file, const fs::path& folder, const Sources& sources, const PersonRecipe& person,
+              const Recipe& recipe, const glm::dvec3& lookAt) {
+    const BaseMesh& base = sources.base;
     const std::vector<glm::dvec3> positions = applyTargets(sources.makeHuman, base, person.targets);
-    const std::vector<double> headWeight = headWeights(base);
+    const Following following = computeFollowing(base);
     const auto radians = [](double degrees) { return degrees * 3.14159265358979323846 / 180; };
     const auto gather = [&](const char* group, const std::vector<glm::dvec3>& from) {
         std::vector<glm::dvec3> points;
@@ -182,13 +254,18 @@ int addPerson(GltfFile& file, const fs::path& folder, const Sources& sources, co
     Pose pose{};
     pose.origin = 0.5 * (fitEye(gather("helper-l-eye", positions)).centre +
                          fitEye(gather("helper-r-eye", positions)).centre);
-    pose.pivot = glm::mix(base.joint("neck", positions), base.joint("head", positions), 0.6);
+    pose.neck = glm::mix(base.joint("neck", positions), base.joint("head", positions), 0.6);
     pose.head =
         glm::dquat(glm::dvec3(radians(person.headNod), radians(person.headTurn), radians(person.headTilt)));
+    constexpr double kArmsDown = 30;  // degrees, from MakeHuman's outstretched arms
+    pose.leftShoulder = base.joint("l-shoulder", positions);
+    pose.rightShoulder = base.joint("r-shoulder", positions);
+    pose.leftArm = glm::dquat(glm::dvec3(0, 0, -radians(kArmsDown)));
+    pose.rightArm = glm::dquat(glm::dvec3(0, 0, radians(kArmsDown)));
     std::vector<glm::dvec3> posed(positions.size());
-    for (std::size_t i = 0; i < posed.size(); ++i) posed[i] = pose.apply(positions[i], headWeight[i]);
+    for (std::size_t i = 0; i < posed.size(); ++i) posed[i] = pose.apply(positions[i], following, i);
 
-    const TriangleMesh skin = makeSkinMesh(selectBust(base, posed), recipe.levels);
+    const TriangleMesh skin = makeSkinMesh(selectSkin(base, posed, person.shirt), recipe.levels);
     const glm::dquat turn(glm::dvec3(0, radians(person.turn), 0));
     std::vector<Eye> eyes;
     for (const char* group : {"helper-l-eye", "helper-r-eye"}) {
@@ -200,7 +277,11 @@ int addPerson(GltfFile& file, const fs::path& folder, const Sources& sources, co
                               addEyes(file, folder, sources, person, eyes, skin)};
     for (const HairRecipe& hair : person.hair)
         children.push_back(
-            addHair(file, folder, sources, person.name, hair, base, positions, pose, headWeight));
+            addHair(file, folder, sources, person.name, hair, base, positions, pose, following));
+    const QuadMesh torso = selectTorso(base, posed, person.shirt),
+                   baseTorso = selectTorso(base, base.mesh.positions, person.shirt);
+    children.push_back(
+        addShirt(file, folder, person, makeShirt(torso, baseTorso, person.shirt.drop, seedOf(person))));
     return file.addNode({{"name", person.name},
                          {"translation", vector(person.eyes)},
                          {"rotation", quaternion(turn)},

@@ -92,13 +92,17 @@ glm::dvec3 sampleLanczos(const Raster& image, glm::dvec2 uv) {
     const double x = uv.x * image.width - 0.5, y = uv.y * image.height - 0.5;
     const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
     glm::dvec3 sum(0), low(1e9), high(-1e9);
-    double total = 0;
+    double total = 0, across[2 * kLobes], down[2 * kLobes];
+    for (int i = 0; i < 2 * kLobes; ++i) {
+        across[i] = kernel(x - (x0 + 1 - kLobes + i));
+        down[i] = kernel(y - (y0 + 1 - kLobes + i));
+    }
     for (int j = 1 - kLobes; j <= kLobes; ++j) {
         for (int i = 1 - kLobes; i <= kLobes; ++i) {
             const float* texel =
                 image.at(std::clamp(x0 + i, 0, image.width - 1), std::clamp(y0 + j, 0, image.height - 1));
             const glm::dvec3 value(texel[0], texel[1], texel[2]);
-            const double weight = kernel(x - (x0 + i)) * kernel(y - (y0 + j));
+            const double weight = across[i + kLobes - 1] * down[j + kLobes - 1];
             sum += weight * value;
             total += weight;
             if (i >= 0 && i <= 1 && j >= 0 && j <= 1)

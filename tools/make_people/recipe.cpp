@@ -62,8 +62,6 @@ SkinRecipe readSkin(const json& object, const std::string& path) {
     fields.read("pores", skin.pores);
     fields.read("wrinkles", skin.wrinkles);
     fields.read("stubble", skin.stubble);
-    fields.read("scalp", skin.scalp);
-    fields.read("scalp_color", skin.scalpColor);
     fields.read("roughness", skin.roughness);
     fields.read("mix", skin.mix);
     fields.read("specular", skin.specular);
@@ -75,11 +73,21 @@ HairRecipe readHair(const json& object, const std::string& path) {
     Fields fields(object, path);
     HairRecipe hair;
     hair.proxy = fields.raw("proxy").get<std::string>();
+    fields.read("saturation", hair.saturation);
     fields.read("gain", hair.gain);
     fields.read("cutoff", hair.cutoff);
     fields.read("roughness", hair.roughness);
     fields.finish();
     return hair;
+}
+
+ShirtRecipe readShirt(const json& object, const std::string& path) {
+    Fields fields(object, path);
+    ShirtRecipe shirt;
+    fields.read("color", shirt.color);
+    fields.read("drop", shirt.drop);
+    fields.finish();
+    return shirt;
 }
 
 PersonRecipe readPerson(const json& object, const std::string& path) {
@@ -92,6 +100,7 @@ PersonRecipe readPerson(const json& object, const std::string& path) {
     const json& hair = fields.raw("hair");
     for (std::size_t i = 0; i < hair.size(); ++i)
         person.hair.push_back(readHair(hair.at(i), fields.pathTo("hair/" + std::to_string(i))));
+    person.shirt = readShirt(fields.raw("shirt"), fields.pathTo("shirt"));
     fields.read("eyes", person.eyes);
     fields.read("turn", person.turn);
     fields.read("head_turn", person.headTurn);

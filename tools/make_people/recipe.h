@@ -10,26 +10,30 @@
 namespace cutis::people {
 
 struct SkinRecipe {
-    std::string map;      // a file under MakeHuman's public/data/skins, or "morse" for the 2048² map
-    glm::dvec3 gain{1};   // multiplies the map's albedo
-    double contrast = 1;  // of the map's variation about its mean colour
-    double blotches = 1;  // uneven blood: strength of slow reddish variation
-    double freckles = 0;  // pigment spots: share of the spots that show, 0 to 1
-    double pores = 1;     // depth of pores
-    double wrinkles = 1;  // depth of fine creases
-    double stubble = 0;   // shaved beard: strength of dark dots on the lower face
-    double scalp = 0;     // cropped hair painted on the scalp: 0 bald to 1 dense
-    glm::dvec3 scalpColor{0.03, 0.025, 0.02};
+    std::string map;         // a file under MakeHuman's public/data/skins, or "morse" for the 2048² map
+    glm::dvec3 gain{1};      // multiplies the map's albedo
+    double contrast = 1;     // of the map's variation about its mean colour
+    double blotches = 1;     // uneven blood: strength of slow reddish variation
+    double freckles = 0;     // pigment spots: share of the spots that show, 0 to 1
+    double pores = 1;        // depth of pores
+    double wrinkles = 1;     // depth of fine creases
+    double stubble = 0;      // shaved beard: strength of dark dots on the lower face
     double roughness = 0.3;  // written to extras.skin
     double mix = 0.5;        // written to extras.skin
     double specular = 1;     // written to extras.skin
 };
 
 struct HairRecipe {
-    std::string proxy;   // for example "hair/short02"
-    glm::dvec3 gain{1};  // multiplies the texture
-    double cutoff = 0;   // alpha mask threshold; 0 blends
+    std::string proxy;      // for example "hair/short02"
+    double saturation = 1;  // of the texture; 0 makes it grey
+    glm::dvec3 gain{1};     // multiplies the texture then
+    double cutoff = 0;      // alpha mask threshold; 0 blends
     double roughness = 0.5;
+};
+
+struct ShirtRecipe {
+    glm::dvec3 color{0.05};
+    double drop = 0;  // lowers the neckline, metres
 };
 
 struct PersonRecipe {
@@ -41,6 +45,7 @@ struct PersonRecipe {
     glm::dvec3 eyes{0, 1.6, 0};                      // where the point between the eyes goes, metres
     double turn = 0;                                 // of the body about +Y, degrees, towards +X
     double headTurn = 0, headNod = 0, headTilt = 0;  // of the head on the neck, degrees
+    ShirtRecipe shirt;
     double irisScale = 1;
 };
 

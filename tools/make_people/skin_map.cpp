@@ -11,9 +11,9 @@ namespace {
 
 // MakeHuman's map, measured: where the charts that a bust needs lie.
 constexpr double kHeadLeft = 0.641, kHeadRight = 0.994, kHeadTop = 0.181, kHeadBottom = 0.853;
-constexpr double kShouldersLeft = 0.10, kShouldersTop = 0.015, kShouldersBottom = 0.30;
+constexpr double kShouldersLeft = 0.20, kShouldersRight = 0.56, kShouldersTop = 0.02, kShouldersBottom = 0.22;
 // Ours: the head takes this share of the map's height, the shoulders the rest less a gap.
-constexpr double kHeadShare = 0.69, kGap = 0.01;
+constexpr double kHeadShare = 0.80, kGap = 0.01;
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -68,7 +68,7 @@ double reliefAt(const glm::dvec3& mm, const Regions& region, const SkinRecipe& r
     const Cells pore = cellNoise(mm / 1.15, seed);
     const double poreSize = 0.24 + 0.16 * hashUnit(pore.id + 7);
     const double pit = std::exp(-pore.nearest * pore.nearest / (2 * poreSize * poreSize));
-    const double poreDepth = 0.012 + 0.035 * std::max(region.nose, 0.8 * region.cheeks);
+    const double poreDepth = 0.035 + 0.075 * std::max(region.nose, 0.8 * region.cheeks);
     // The net of fine lines that skin has everywhere: cells of 0.7 and 1.6 mm, their borders sunk.
     const glm::dvec3 warped =
         mm + 0.25 * glm::dvec3(gradientNoise(mm / 2.0, seed + 11), gradientNoise(mm / 2.0, seed + 12),
@@ -77,10 +77,10 @@ double reliefAt(const glm::dvec3& mm, const Regions& region, const SkinRecipe& r
     const auto line = [](const Cells& c, double width) {
         return std::exp(-std::pow((c.second - c.nearest) / width, 2));
     };
-    const double net = 0.010 * line(fine, 0.18) + 0.014 * line(coarse, 0.12);
+    const double net = 0.022 * line(fine, 0.20) + 0.032 * line(coarse, 0.14);
     // Lips: vertical creases, so fast across x and slow along y.
-    const double creases = 0.06 * fractalNoise({mm.x / 0.9, mm.y / 5.0, mm.z / 5.0}, 2, seed + 3);
-    const double bumps = 0.03 * fractalNoise(mm / 2.4, 3, seed + 4);
+    const double creases = 0.16 * fractalNoise({mm.x / 0.9, mm.y / 5.0, mm.z / 5.0}, 2, seed + 3);
+    const double bumps = 0.07 * fractalNoise(mm / 2.4, 3, seed + 4);
     const double skin = bumps - recipe.pores * poreDepth * pit - recipe.wrinkles * net;
     return skin * (1 - region.lips) + (creases + 0.3 * bumps) * region.lips;
 }
@@ -148,7 +148,8 @@ bool onHead(glm::dvec2 s) {
 }
 
 bool onShoulders(glm::dvec2 s) {
-    return !onHead(s) && s.x > kShouldersLeft && s.y > kShouldersTop && s.y < kShouldersBottom;
+    return !onHead(s) && s.x > kShouldersLeft && s.x < kShouldersRight && s.y > kShouldersTop &&
+           s.y < kShouldersBottom;
 }
 
 glm::dvec2 layoutUv(glm::dvec2 s) {
@@ -159,7 +160,7 @@ glm::dvec2 layoutUv(glm::dvec2 s) {
                 0.004 + (kHeadShare - 0.004) * widen(down, 0.65, 0.35, 1.0)};
     }
     const double scale = (1 - kHeadShare - kGap) / (kShouldersBottom - kShouldersTop);
-    return {0.1 + scale * (s.x - kShouldersLeft), kHeadShare + kGap + scale * (s.y - kShouldersTop)};
+    return {0.3 + scale * (s.x - kShouldersLeft), kHeadShare + kGap + scale * (s.y - kShouldersTop)};
 }
 
 Surfels rasterizeSurfels(const TriangleMesh& mesh, int size) {
@@ -203,7 +204,38 @@ Surfels rasterizeSurfels(const TriangleMesh& mesh, int size) {
     return out;
 }
 
-SkinMaps makeSkinMaps(const Surfels& surfels, const Raster& source, const SkinRecipe& recipe, unsigned seed) {
+Raster computeDetail(const Raster& map) {
+    constexpr int kRadius = 12;
+    constexpr double kSigma = 5;  // texels
+    Raster logs(map.width, map.height, 3), across = logs, out = logs;
+    for (int y = 0; y < map.height; ++y)
+        for (int x = 0; x < map.width; ++x)
+            for (int c = 0; c < 3; ++c) logs.at(x, y)[c] = std::log(std::max(map.at(x, y)[c], 1e-3f));
+    std::vector<double> kernel;
+    double total = 0;
+    for (int i = -kRadius; i <= kRadius; ++i) kernel.push_back(std::exp(-i * i / (2 * kSigma * kSigma)));
+    for (const double k : kernel) total += k;
+    const auto blur = [&](const Raster& from, Raster& to, int dx, int dy) {
+        parallelFor(std::size_t(map.height), [&](std::size_t row) {
+            for (int x = 0; x < map.width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    double sum = 0;
+                    for (int i = -kRadius; i <= kRadius; ++i)
+                        sum += kernel[i + kRadius] *
+                               from.at(std::clamp(x + i * dx, 0, map.width - 1),
+                                       std::clamp(int(row) + i * dy, 0, map.height - 1))[c];
+                    to.at(x, int(row))[c] = float(sum / total);
+                }
+        });
+    };
+    blur(logs, across, 1, 0);
+    blur(across, out, 0, 1);
+    for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] = logs.values[i] - out.values[i];
+    return out;
+}
+
+SkinMaps makeSkinMaps(const Surfels& surfels, const Raster& source, const Raster* detail,
+                      const SkinRecipe& recipe, unsigned seed) {
     const int n = surfels.size;
     SkinMaps maps{Raster(n, n, 3), Raster(n, n, 3)};
     std::vector<float> height(std::size_t(n) * n);
@@ -224,6 +256,10 @@ SkinMaps makeSkinMaps(const Surfels& surfels, const Raster& source, const SkinRe
             glm::dvec3 albedo = sampleLanczos(source, uv);
             albedo = mean * glm::pow(glm::max(albedo, 1e-4) / mean, glm::dvec3(recipe.contrast));
             albedo *= recipe.gain * pigmentAt(mm, region, recipe, seed);
+            if (detail) {  // not where the two maps' features differ in shape
+                const double share = 1.3 * (1 - std::max(region.lips, region.eyelids));
+                albedo *= glm::exp(share * glm::clamp(sampleLanczos(*detail, uv), -0.25, 0.25));
+            }
             for (int c = 0; c < 3; ++c)
                 maps.albedo.at(x, int(y))[c] = float(std::clamp(albedo[c], 0.0, 0.95));
             height[i] = float(reliefAt(mm, region, recipe, seed));

@@ -37,6 +37,12 @@ struct SkinMaps {
     Raster normal;  // tangent space, 0.5 + 0.5 n, 3 channels
 };
 
-SkinMaps makeSkinMaps(const Surfels& surfels, const Raster& source, const SkinRecipe& recipe, unsigned seed);
+// Natural logarithm of a map over its own blur: the detail that it can lend to another map of the same
+// layout.
+Raster computeDetail(const Raster& map);
+
+// `source` is MakeHuman's map; `detail`, if any, what a finer map of the same layout lends it.
+SkinMaps makeSkinMaps(const Surfels& surfels, const Raster& source, const Raster* detail,
+                      const SkinRecipe& recipe, unsigned seed);
 
 }  // namespace cutis::people
