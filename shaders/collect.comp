@@ -77,7 +77,7 @@ void collectGroups(ivec2 pixel, uint packedPixel) {
     int size[MAX_SAMPLES];
     int groups = 0, largest = 0;
     for (int s = 0; s < total; ++s) {
-        uint id = triangleAt(pixel, s, 0);
+        uint id = triangleAt(pixel, s, push.layers - 1);
         if (id == 0u) continue;
         int g = 0;
         while (g < groups && !alike(leader[g], id - 1u)) ++g;
@@ -131,7 +131,13 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, push.tileSize))) return;
     uint packedPixel = uint(pixel.x) | uint(pixel.y) << 16;
+    // The nearest of the layers behind which more is seen is empty where nothing is seen through.
+    bool layered = false;
     if (push.layers > 1) {
+        int total = push.supersampling * push.supersampling;
+        for (int s = 0; s < total; ++s) layered = layered || triangleAt(pixel, s, 0) != 0u;
+    }
+    if (layered) {
         collectLayers(pixel, packedPixel);
     } else {
         collectGroups(pixel, packedPixel);

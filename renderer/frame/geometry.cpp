@@ -1,8 +1,11 @@
 #include "renderer/frame/geometry.h"
 
+#include <meshoptimizer.h>
+
 #include <algorithm>
 
 #include "renderer/core/error.h"
+#include "renderer/core/parallel.h"
 
 namespace cutis {
 namespace {
@@ -132,6 +135,31 @@ Geometry flattenScene(const Scene& scene) {
         geometry.drawInfos.push_back(info);
     }
     return geometry;
+}
+
+void addOcclusionProxies(Geometry& geometry, double error) {
+    std::vector<std::vector<unsigned>> proxies(geometry.draws.size());
+    parallelFor(geometry.draws.size(), [&](std::size_t d) {
+        const GeometryDraw& draw = geometry.draws[d];
+        std::vector<unsigned> local(draw.indexCount);
+        for (std::uint32_t i = 0; i < draw.indexCount; ++i) {
+            local[i] = geometry.indices[draw.firstIndex + i] - draw.firstVertex;
+        }
+        const float* positions = &geometry.positions[draw.firstVertex].x;
+        const float scale = meshopt_simplifyScale(positions, draw.vertexCount, sizeof(glm::vec3));
+        std::vector<unsigned>& proxy = proxies[d];
+        proxy.resize(draw.indexCount);
+        const float relative = scale > 0 ? static_cast<float>(error) / scale : 0.0f;
+        float reached = 0;
+        proxy.resize(meshopt_simplify(proxy.data(), local.data(), local.size(), positions, draw.vertexCount,
+                                      sizeof(glm::vec3), 3, relative, 0, &reached));
+    });
+    for (std::size_t d = 0; d < geometry.draws.size(); ++d) {
+        GeometryDraw& draw = geometry.draws[d];
+        draw.firstProxyIndex = static_cast<std::uint32_t>(geometry.indices.size());
+        draw.proxyIndexCount = static_cast<std::uint32_t>(proxies[d].size());
+        for (unsigned index : proxies[d]) geometry.indices.push_back(index + draw.firstVertex);
+    }
 }
 
 }  // namespace cutis

@@ -17,6 +17,7 @@ struct GeometryDraw {
     int character = -1;  // index into Scene::characters
     std::uint32_t firstIndex = 0, indexCount = 0;
     std::uint32_t firstVertex = 0, vertexCount = 0;
+    std::uint32_t firstProxyIndex = 0, proxyIndexCount = 0;  // see addOcclusionProxies
     bool skin = false;
     Bounds bounds;  // world
 };
@@ -42,5 +43,9 @@ struct Geometry {
 
 // Throws Error when the scene holds more than 2³² / 3 triangles or vertices, or skin without texture coordinates.
 Geometry flattenScene(const Scene& scene);
+
+// Appends to `indices` a coarser form of every draw, for shadows of the sky alone: they are found at a resolution of
+// millimetres, and in a hundred directions. Surfaces move by at most `error` metres.
+void addOcclusionProxies(Geometry& geometry, double error = 7e-4);
 
 }  // namespace cutis

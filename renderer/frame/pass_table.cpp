@@ -78,7 +78,7 @@ void lightMapsRow(FrameContext& frame) {
     recordLightMaps(*frame.device, *frame.commands, frame.scene.buffers,
                     {.depth = &maps.depth, .entry = maps.entry ? &maps.entry : nullptr, .viewBuffer = &maps.views,
                      .views = maps.viewList, .firstView = 0, .viewCount = static_cast<std::uint32_t>(count),
-                     .size = maps.size, .atlasSize = frame.atlas.size});
+                     .atlasSize = frame.atlas.size});
 }
 
 void surfaceRow(FrameContext& frame) {

@@ -24,11 +24,10 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Texels as wide as two thirds of a pixel where the character stands, so that the picture resolves the atlas; never
-// finer than half the narrowest blur of skin that a close view could show.
+// Texels a little finer than the pixels where the character stands; never finer than the narrowest blur of skin.
 double wantedMmPerTexel(const Character& character, const ViewCameraMetrics& metrics) {
     constexpr double kFinest = 0.08;
-    return std::max(kFinest, 0.67 * metrics.metresPerPixel(character.bounds.centre()) * 1000);
+    return std::max(kFinest, 0.85 * metrics.metresPerPixel(character.bounds.centre()) * 1000);
 }
 
 void prepareTarget(FrameContext& frame) {
@@ -200,6 +199,8 @@ RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const 
         // Skin that no light reaches is as black as anything else, and needs no atlas to be so.
         for (shared::DrawInfo& draw : frame.geometry.drawInfos) draw.chart = shared::NO_CHART;
     }
+
+    if (frame.needs[Need::environment]) addOcclusionProxies(frame.geometry);
 
     RenderResult result;
     {

@@ -157,6 +157,8 @@ std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry, 
         DrawRange range;
         range.firstIndex = draw.firstIndex;
         range.indexCount = draw.indexCount;
+        range.firstProxyIndex = draw.firstProxyIndex;
+        range.proxyIndexCount = draw.proxyIndexCount;
         range.material = static_cast<std::uint32_t>(draw.material);
         range.skin = draw.skin;
         range.blended = material.alphaMode == AlphaMode::blend;

@@ -231,8 +231,7 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
         shader += "+AOVS";
         bindings.push_back({"aovs", target.aovs});
     }
-    ShadePush push{tile.origin, tile.pictureSize, input.lights->sampleCount,
-                   input.view->layers > 1 ? 1.0f / static_cast<float>(tile.supersampling) : 1.0f, 0, 0};
+    ShadePush push{tile.origin, tile.pictureSize, input.lights->sampleCount, 1.0f, 0, 0};
     for (int i = 0; i < kAovCount; ++i) {
         const auto layer = static_cast<std::uint32_t>(target.aovLayer[i]) & 15u;
         (i < 8 ? push.aovLayers0 : push.aovLayers1) |= layer << (i % 8 * 4);

@@ -67,7 +67,7 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
             const auto count = std::min<std::uint32_t>(kBatch, directions.size() - word * kBatch);
             recordLightMaps(device, commands, *input.scene,
                             {.depth = &depth, .viewBuffer = &viewBuffer, .views = views, .firstView = firstView,
-                             .viewCount = count, .size = input.mapSize});
+                             .viewCount = count, .proxies = true});
             BitsPush push{g, firstView, count, word, 0, 0, 0, input.probeCount};
             if (input.surface) {
                 const gpu::Program& program = device.program("environment_visibility.comp");

@@ -23,11 +23,15 @@ struct Batch {
 };
 
 // What reaches the view. Neighbouring ranges of one kind become one call.
-std::vector<Batch> batchesFor(const SceneBuffers& scene, const shared::LightView& view, bool entries) {
+std::vector<Batch> batchesFor(const SceneBuffers& scene, const LightMapTargets& targets,
+                              const shared::LightView& view) {
     std::vector<Batch> batches;
     for (const DrawRange& range : scene.ranges) {
         if (!range.castsShadow || !reaches(view, range.boundsMin, range.boundsMax)) continue;
-        const bool skin = entries && range.skin;
+        const bool skin = targets.entry && range.skin;
+        const std::uint32_t first = targets.proxies ? range.firstProxyIndex : range.firstIndex;
+        const std::uint32_t count = targets.proxies ? range.proxyIndexCount : range.indexCount;
+        if (count == 0) continue;
         Batch* batch = nullptr;
         for (Batch& known : batches) {
             if (known.skin == skin && known.masked == range.masked &&
@@ -37,10 +41,10 @@ std::vector<Batch> batchesFor(const SceneBuffers& scene, const shared::LightView
         }
         if (!batch) batch = &batches.emplace_back(Batch{skin, range.masked, range.material, {}});
         std::vector<gpu::DrawCall>& calls = batch->calls;
-        if (!calls.empty() && calls.back().first + calls.back().count == range.firstIndex) {
-            calls.back().count += range.indexCount;
+        if (!calls.empty() && calls.back().first + calls.back().count == first) {
+            calls.back().count += count;
         } else {
-            calls.push_back({.first = range.firstIndex, .count = range.indexCount});
+            calls.push_back({.first = first, .count = count});
         }
     }
     return batches;
@@ -85,7 +89,7 @@ void recordLightMaps(gpu::Device& device, gpu::Commands& commands, const SceneBu
         render.depth = {targets.depth->layer(view.layer), gpu::ClearValue::depth(1)};
         if (translucent) render.colors = {{targets.entry->layer(view.layer), gpu::ClearValue::integers(0xffffffffu)}};
         commands.beginRendering(render);
-        for (const Batch& batch : batchesFor(scene, view, translucent)) {
+        for (const Batch& batch : batchesFor(scene, targets, view)) {
             drawBatch(device, commands, scene, targets, state, v, batch);
         }
         commands.endRendering();

@@ -15,8 +15,8 @@ struct LightMapTargets {
     const gpu::Buffer* viewBuffer;
     std::span<const shared::LightView> views;  // all of the buffer
     std::uint32_t firstView = 0, viewCount = 0;
-    int size = 0;
-    int atlasSize = 0;
+    int atlasSize = 0;     // with entry
+    bool proxies = false;  // draw coarser forms of the meshes
 };
 void recordLightMaps(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                      const LightMapTargets& targets);

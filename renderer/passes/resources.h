@@ -17,6 +17,7 @@ namespace cutis {
 // A run of triangles drawn with one call.
 struct DrawRange {
     std::uint32_t firstIndex = 0, indexCount = 0;
+    std::uint32_t firstProxyIndex = 0, proxyIndexCount = 0;  // a coarser form, for the sky's shadows
     std::uint32_t material = 0;
     bool skin = false;              // takes light in
     bool castsShadow = true;

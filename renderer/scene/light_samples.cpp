@@ -14,7 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kGolden = std::numbers::phi - 1;    // best one-dimensional Kronecker step
 constexpr double kPlastic = 0.56984029099805326591;  // 1/ρ², ρ the plastic number: independent of kGolden
-constexpr int kDefaultRadiusSamples = 8, kDefaultRectSamples = 16;
+constexpr int kDefaultRadiusSamples = 6, kDefaultRectSamples = 9;
 constexpr double kMaxCellAspect = 1.5;  // of a grid's cells; beyond it a lattice spreads samples better
 
 double fraction(double x) {

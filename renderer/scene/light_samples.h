@@ -29,8 +29,8 @@ struct SamplingOptions {
 // Deterministic. Throws Error when there are more than options.limit.
 std::vector<LightSample> sampleLights(const Rig& rig, const SamplingOptions& options = {});
 
-// How many samples sampleLights makes of a light: `samples` for one with an area, where 0 stands for 8
-// (radius) or 16 (rect); 1 for one without.
+// How many samples sampleLights makes of a light: `samples` for one with an area, where 0 stands for 6
+// (radius) or 9 (rect); 1 for one without.
 int sampleCount(const Light& light);
 
 // Unoccluded irradiance (RGB, in the unit of the light) that one sample gives a surface at p with unit normal

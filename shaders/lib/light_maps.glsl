@@ -62,43 +62,35 @@ vec2 vogelDisc(int i, int n) {
     return r * vec2(cos(phi), sin(phi));
 }
 
+const float kWidestFilter = 48.0;  // texels
+
 // The lit share of a light sample at p, in [0,1]. `extent` is the radius of the source in metres at `lightDistance`
 // metres (directional: radians and 1): the blocker's distance makes the penumbra (Fernando 2005).
 float lightMapVisibility(LightView view, vec3 p, vec3 n, vec3 l, float extent, float lightDistance, bool directional) {
     LightMapPoint at = locateInLightMap(view, p, n, l);
     if (!at.inside) return 1.0;
     vec2 texel = 1.0 / vec2(textureSize(lightDepth, 0).xy);
-    float radius = 0.0;  // of the filter, in metres at the receiver
+    float filterTexels = 0.75;  // radius; at the least the tent of three texels that hides the map's own steps
     if (extent > 0.0) {
         const int kBlockers = 5;
         // No blocker nearer to the light than the map's near plane can widen the penumbra further than this.
-        float nearest = lightMapDistance(view, 0.0);
-        float reach = directional ? extent * max(at.distance - nearest, 0.0)
-                                  : extent * max(at.distance - nearest, 0.0) / max(at.distance, 1e-12);
-        float reachTexels = clamp(reach / at.texel, 1.0, 48.0);
+        float gapLimit = max(at.distance - lightMapDistance(view, 0.0), 0.0);
+        float reach = directional ? extent * gapLimit : extent * gapLimit / max(at.distance, 1e-12);
+        float reachTexels = clamp(reach / at.texel, 1.0, kWidestFilter);
         float sum = 0.0, count = 0.0;
         for (int i = 0; i < kBlockers; ++i) {
             vec2 offset = vogelDisc(i, kBlockers) * reachTexels * texel;
-            float depth = texture(lightDepth, vec3(at.uvDepth.xy + offset, float(view.layer))).x;
-            if (depth < at.uvDepth.z + dot(at.slope, offset)) {
-                sum += lightMapDistance(view, depth);
-                count += 1.0;
-            }
+            float depth = textureLod(lightDepth, vec3(at.uvDepth.xy + offset, float(view.layer)), 0.0).x;
+            bool blocks = depth < at.uvDepth.z + dot(at.slope, offset);
+            sum += blocks ? lightMapDistance(view, depth) : 0.0;
+            count += blocks ? 1.0 : 0.0;
         }
-        if (count == 0.0) return compareLightMap(view.layer, at, vec2(0.0));
-        float blocker = sum / count, gap = max(at.distance - blocker, 0.0);
-        radius = directional ? extent * gap : extent * gap / max(blocker, 1e-6);
+        float blocker = count > 0.0 ? sum / count : at.distance, gap = max(at.distance - blocker, 0.0);
+        float radius = directional ? extent * gap : extent * gap / max(blocker, 1e-6);
+        filterTexels = clamp(radius / at.texel, filterTexels, kWidestFilter);
     }
-    float filterTexels = clamp(radius / at.texel, 0.0, 48.0);
-    if (filterTexels <= 1.0) {
-        // Four bilinear comparisons: a tent of three texels.
-        float lit = 0.0;
-        for (int i = 0; i < 4; ++i) {
-            lit += compareLightMap(view.layer, at, (vec2(i & 1, i >> 1) - 0.5) * texel);
-        }
-        return 0.25 * lit;
-    }
-    const int kTaps = 9;
+    // One loop for sharp and soft shadows alike: a software device runs both sides of a branch.
+    const int kTaps = 8;
     float lit = 0.0;
     for (int i = 0; i < kTaps; ++i) lit += compareLightMap(view.layer, at, vogelDisc(i, kTaps) * filterTexels * texel);
     return lit / float(kTaps);
