@@ -88,9 +88,7 @@ std::string commandHelp(const Command& command) {
             help += ":\n";
         }
         std::string names(option->names);
-        if (const std::size_t comma = names.find(','); comma != std::string::npos)
-            names.insert(comma + 1, " ");
-        if (!option->metavar.empty()) names += ' ' + std::string(option->metavar);
+        if (!option->isFlag()) names.append(" ").append(option->metavar);
         appendRow(help, names, option->help);
     }
     help += known.empty() ? "\nOptions:\n" : "\nHelp:\n";

@@ -118,7 +118,7 @@ std::vector<Option> makeOptions() {
     const char* const view = "View";
     const char* const quality = "Skin and quality";
     return {
-        {"-o,--output", "FILE", kRender, output,
+        {"-o, --output", "FILE", kRender, output,
          "The picture: .exr is scene-linear float radiance with coverage as alpha, .png is exposed, tone "
          "mapped and "
          "sRGB. Repeat it for both in one run",
@@ -126,7 +126,7 @@ std::vector<Option> makeOptions() {
          [](Request& r, const std::string& text) {
              addOutput(r, text, {".exr", ".png"});
          }},
-        {"-o,--output", "FILE", kRigExport, output,
+        {"-o, --output", "FILE", kRigExport, output,
          "The result: .glb holds the lights as KHR_lights_punctual, .json is a rig file", false,
          [](Request& r, const std::string& text) {
              addOutput(r, text, {".glb", ".json"});
@@ -219,7 +219,7 @@ std::vector<Option> makeOptions() {
 }  // namespace
 
 std::string_view Option::longName() const {
-    return names.substr(names.rfind(',') + 1);  // npos + 1 is 0
+    return names.substr(names.rfind(' ') + 1);  // npos + 1 is 0
 }
 
 std::span<const Option> options() {

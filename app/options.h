@@ -34,7 +34,7 @@ struct Request {
 enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4 };
 
 struct Option {
-    std::string_view names;    // "-o,--output", the long one last
+    std::string_view names;    // "-o, --output", the long one last
     std::string_view metavar;  // empty: a flag
     unsigned commands;         // CommandSet
     std::string_view group;    // heading in --help
