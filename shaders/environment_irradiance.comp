@@ -25,23 +25,29 @@ layout(push_constant, scalar) uniform Push {
     float largestAlbedo;  // 1/s: what ρ_dt is cut off at
 } push;
 
+// One texel of every face: sources are loaded once for six normals.
 void main() {
-    uvec3 at = gl_GlobalInvocationID;
+    uvec2 at = gl_GlobalInvocationID.xy;
     uint size = uint(imageSize(target).x);
     if (at.x >= size || at.y >= size) return;
-    vec3 n = normalize(cubeDirection(cubeFace(at.z), cubeTexelCentre(at.xy, size)));
-    vec3 sum = vec3(0.0);
+    vec3 n[6], sum[6];
+    for (uint face = 0u; face < 6u; ++face) {
+        n[face] = normalize(cubeDirection(cubeFace(face), cubeTexelCentre(at, size)));
 #ifdef FINE
-    sum = textureLod(coarse, n, 0.0).rgb;
+        sum[face] = textureLod(coarse, n[face], 0.0).rgb;
+#else
+        sum[face] = vec3(0.0);
 #endif
+    }
     for (uint i = 0u; i < push.count; ++i) {
         EnvironmentSource source = sources[push.first + i];
-        float cosine = dot(n, source.mean);
-        if (cosine <= 0.0) continue;
+        for (uint face = 0u; face < 6u; ++face) {
+            float cosine = max(dot(n[face], source.mean), 0.0);
 #ifdef MATTE
-        cosine *= min(directionalAlbedo(cosine, 0u), push.largestAlbedo);
+            cosine *= min(directionalAlbedo(cosine, 0u), push.largestAlbedo);
 #endif
-        sum += source.flux * cosine;
+            sum[face] += source.flux * cosine;
+        }
     }
-    imageStore(target, ivec3(at), vec4(sum, 1.0));
+    for (uint face = 0u; face < 6u; ++face) imageStore(target, ivec3(at, face), vec4(sum[face], 1.0));
 }

@@ -25,28 +25,34 @@ vec3 lookUp(vec3 d) {
     return textureLod(latLong, uv, 0.0).rgb;
 }
 
+// One texel of every face: peaks are loaded once for six directions.
 void main() {
-    uvec3 at = gl_GlobalInvocationID;
+    uvec2 at = gl_GlobalInvocationID.xy;
     uint size = uint(imageSize(target).x);
     if (at.x >= size || at.y >= size) return;
-    CubeFace face = cubeFace(at.z);
-    vec2 centre = cubeTexelCentre(at.xy, size);
+    vec2 centre = cubeTexelCentre(at, size);
     float texel = 2.0 / float(size);
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < kSamples * kSamples; ++i) {
-        vec2 offset = (vec2(i % kSamples, i / kSamples) + 0.5) / float(kSamples) - 0.5;
-        sum += lookUp(cubeDirection(face, centre + offset * texel));
+    vec3 radiance[6];
+    for (uint face = 0u; face < 6u; ++face) {
+        radiance[face] = vec3(0.0);
+        for (int i = 0; i < kSamples * kSamples; ++i) {
+            vec2 offset = (vec2(i % kSamples, i / kSamples) + 0.5) / float(kSamples) - 0.5;
+            radiance[face] += lookUp(cubeDirection(cubeFace(face), centre + offset * texel));
+        }
+        radiance[face] /= float(kSamples * kSamples);
     }
-    vec3 radiance = sum / float(kSamples * kSamples);
-    vec3 n = normalize(cubeDirection(face, centre));
-    float near = 1.0 - 2.0 * texel * texel;  // no farther than two texels
+    float share = 1.0 / cubeTexelSolidAngle(centre, size);
     for (uint i = 0u; i < push.peakCount; ++i) {
         vec3 p = peaks[i].mean;
-        if (dot(n, p) < near) continue;
-        float depth = dot(p, face.axis);
-        vec2 st = vec2(dot(p, face.right), dot(p, face.down)) / depth;
-        vec2 tent = max(1.0 - abs(st - centre) / texel, 0.0);
-        radiance += peaks[i].flux * (tent.x * tent.y / cubeTexelSolidAngle(centre, size));
+        for (uint face = 0u; face < 6u; ++face) {
+            CubeFace f = cubeFace(face);
+            // Where the peak is seen on the face's plane; behind it, or just beyond its edge, the tent is 0 or shared with
+            // the neighbouring face.
+            float depth = dot(p, f.axis);
+            vec2 st = vec2(dot(p, f.right), dot(p, f.down)) / max(depth, 1e-3);
+            vec2 tent = max(1.0 - abs(st - centre) / texel, 0.0);
+            if (depth > 0.5 && tent.x * tent.y > 0.0) radiance[face] += peaks[i].flux * (tent.x * tent.y * share);
+        }
     }
-    imageStore(target, ivec3(at), vec4(radiance, 1.0));
+    for (uint face = 0u; face < 6u; ++face) imageStore(target, ivec3(at, face), vec4(radiance[face], 1.0));
 }

@@ -41,10 +41,6 @@ gpu::Image makeCube(gpu::Device& device, const char* name, std::uint32_t size, s
                                .cube = true});
 }
 
-gpu::Groups groupsForCube(const gpu::Program& program, std::uint32_t size) {
-    return gpu::groupsFor(program, size, size, 6);
-}
-
 // Records into one submission, taking from the cache what is there.
 class Prefilter {
   public:
@@ -142,13 +138,13 @@ class Prefilter {
         }
         const gpu::Program& program = device_.program("environment_irradiance.comp" + variant);
         commands_.dispatch(program, bindings, Push{0, sources.faint, largestAlbedo},
-                           groupsForCube(program, kCoarseFace));
+                           gpu::groupsFor(program, kCoarseFace, kCoarseFace));
         bindings[1] = {"target", target};
         bindings.push_back({"coarse", gpu::sampled(coarse, device_.sampler())});
         const gpu::Program& fine = device_.program("environment_irradiance.comp" + variant + "+FINE");
         const auto bright = std::uint32_t(sources.sources.size()) - sources.faint;
         commands_.dispatch(fine, bindings, Push{sources.faint, bright, largestAlbedo},
-                           groupsForCube(fine, sources.face));
+                           gpu::groupsFor(fine, sources.face, sources.face));
     }
 
     void makeRadiance(EnvironmentMaps& maps) {
@@ -174,7 +170,7 @@ class Prefilter {
                                    {{"source", gpu::sampled(maps.radiance.mip(level - 1), device_.sampler())},
                                     {"target", maps.radiance.mip(level)}},
                                    FilterPush{float(lobe), float(step)},
-                                   groupsForCube(program, size >> level));
+                                   gpu::groupsFor(program, size >> level, size >> level, 6));
             }
         });
     }
@@ -192,7 +188,7 @@ class Prefilter {
         commands_.dispatch(
             program,
             {{"latLong", gpu::sampled(latLong, around)}, {"SourceBuffer", peaks}, {"target", target}},
-            std::uint32_t(split.peaks.size()), groupsForCube(program, target.width()));
+            std::uint32_t(split.peaks.size()), gpu::groupsFor(program, target.width(), target.height()));
     }
 
     gpu::Device& device_;
