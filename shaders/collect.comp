@@ -75,9 +75,12 @@ void collectGroups(ivec2 pixel, uint packedPixel) {
     uint leader[MAX_SAMPLES];
     vec2 place[MAX_SAMPLES];
     int size[MAX_SAMPLES];
+    int group[MAX_SAMPLES];  // of each sample; -1: sees nothing
+    uint seen[MAX_SAMPLES];  // by each sample
     int groups = 0, largest = 0;
     for (int s = 0; s < total; ++s) {
         uint id = triangleAt(pixel, s, push.layers - 1);
+        group[s] = -1;
         if (id == 0u) continue;
         int g = 0;
         while (g < groups && !alike(leader[g], id - 1u)) ++g;
@@ -87,14 +90,23 @@ void collectGroups(ivec2 pixel, uint packedPixel) {
             size[g] = 0;
             ++groups;
         }
+        group[s] = g;
+        seen[s] = id - 1u;
         place[g] += placeOf(s);
         ++size[g];
         if (size[g] > size[largest]) largest = g;
     }
     uint first = groups > 0 ? atomicAdd(pointCount, uint(groups)) : 0u;
     for (int g = 0; g < groups; ++g) {
+        // Of its triangles the group is shaded on the one that is seen nearest to its mean place.
+        vec2 mean = place[g] / float(size[g]);
+        float nearest = 2.0;
+        for (int s = 0; s < total; ++s) {
+            float apart = distance(placeOf(s), mean);
+            if (group[s] == g && apart < nearest) nearest = apart, leader[g] = seen[s];
+        }
         append(first + uint(g),
-               ShadingPoint(leader[g], packedPixel, packUnorm2x16(place[g] / float(size[g])),
+               ShadingPoint(leader[g], packedPixel, packUnorm2x16(mean),
                             float(size[g]) / float(total)),
                g == largest);
     }

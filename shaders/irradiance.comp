@@ -73,9 +73,10 @@ EntryPoint findEntry(LightView view, vec3 p, vec3 n, vec3 l, float rayScale, uin
     vec2 f = grid - vec2(base);
     vec2 atlasSize = vec2(textureSize(position, 0));
     vec2 place = vec2(0.0);
-    float depth = 0.0, weight = 0.0, nearest = -1.0;
+    float depth = 0.0, weight = 0.0, nearest = 0.0;
     vec2 nearestPlace = vec2(0.0);
     float nearestDepth = 0.0;
+    bool blocked = true;  // by something that is not skin
     bool together = true;
     vec2 reference = vec2(-1.0);
     for (int i = 0; i < 4; ++i) {
@@ -85,22 +86,22 @@ EntryPoint findEntry(LightView view, vec3 p, vec3 n, vec3 l, float rayScale, uin
         uint packed = texelFetch(lightEntry, texel, 0).x;
         if (packed == 0xffffffffu) {
             // The nearest texel decides whether something that is not skin stands in the way.
-            if (w > nearest) nearest = w, nearestDepth = -1.0;
+            if (w > nearest) nearest = w, blocked = true;
             together = false;
             continue;
         }
         vec2 texelPlace = unpackUnorm2x16(packed) * atlasSize;
         float texelDepth = lightMapDistance(view, texelFetch(lightDepth, texel, 0).x);
         // Just beyond a silhouette the map may miss it and show what lies behind the point: no way in for its light.
-        if (texelDepth > here) continue;
-        if (w > nearest) nearest = w, nearestPlace = texelPlace, nearestDepth = texelDepth;
+        if (texelDepth > here || w == 0.0) continue;
+        if (w > nearest) nearest = w, nearestPlace = texelPlace, nearestDepth = texelDepth, blocked = false;
         if (reference.x < 0.0) reference = texelPlace;
         if (distance(reference, texelPlace) > 16.0) together = false;
         place += w * texelPlace;
         depth += w * texelDepth;
         weight += w;
     }
-    if (nearestDepth < 0.0 || weight == 0.0) return none;
+    if (blocked) return none;
     if (together) {
         place /= weight;
         depth /= weight;

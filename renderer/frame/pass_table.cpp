@@ -11,7 +11,7 @@
 namespace cutis {
 namespace {
 
-constexpr int kSupersampling = 2;
+constexpr int kSupersampling = 3;
 // Directions in which the environment's visibility is known: enough that a hemisphere's irradiance is within 2 %.
 constexpr int kVisibilityDirections = 128;
 constexpr int kVisibilityMapSize = 256;

@@ -68,7 +68,7 @@ shared::LightView directionalView(const glm::dvec3& direction, const Bounds& rec
     view.worldToClip = fromRows({glm::dvec4(frame.right * (2 / width), -2 * x.middle() / width),
                                  glm::dvec4(frame.up * (2 / width), -2 * y.middle() / width),
                                  glm::dvec4(frame.forward / span, -nearPlane / span), glm::dvec4(0, 0, 0, 1)});
-    view.depthToDistance = glm::vec3(nearPlane, 0, span);
+    view.depthToDistance = glm::vec3(0, 0, span);
     view.texelSize = static_cast<float>(width / mapSize);
     return view;
 }

@@ -12,7 +12,7 @@ struct LightMapPoint {
 };
 
 float lightMapDistance(LightView view, float depth) {
-    return view.depthToDistance.y == 0.0 ? view.depthToDistance.x + view.depthToDistance.z * depth
+    return view.depthToDistance.y == 0.0 ? view.depthToDistance.z * depth
                                          : view.depthToDistance.x / (view.depthToDistance.y + view.depthToDistance.z * depth);
 }
 

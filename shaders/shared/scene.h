@@ -108,7 +108,7 @@ struct LightSampleData {
 // A light map's camera.
 struct LightView {
     mat4 worldToClip;
-    vec3 depthToDistance;  // distance along the axis from depth d: x / (y + z·d), or x + z·d when y is 0
+    vec3 depthToDistance;  // distance along the axis from depth d: x / (y + z·d), or z·d from the near plane when y is 0
     float texelSize;       // width of a texel in metres (orthographic), or at unit distance (perspective)
     uint layer;
 };
