@@ -25,6 +25,8 @@ layout(push_constant, scalar) uniform Push {
 
 const int kMaxTaps = 12;  // on either side
 const float kReach = 3.5;  // standard deviations
+// Variance, in texels², that bilinear lookup adds along each axis: ∫ f (1 - f) df.
+const float kLookupVariance = 1.0 / 6.0;
 
 // A symmetric kernel of 2·count + 1 taps, `step` texels apart along the axis on which the direction is longest.
 struct Kernel {
@@ -90,33 +92,40 @@ void main() {
         imageStore(target, texel, vec4(0.0));
         return;
     }
-    float sigma = sqrt(push.variance), smoothness = sqrt(push.previous);
-    vec2 first = factor.xy;
+    // Covariance of the Gaussian in texels, per mm²: (JᵀJ)⁻¹ = L·Lᵀ.
+    vec3 perMm = vec3(factor.x * factor.x, factor.x * factor.y, factor.y * factor.y + factor.z * factor.z);
+    // Whoever looks a level up between texels adds kLookupVariance to it along u and v. So that what is seen has the
+    // variance v_k, the texture is taken to that much less, and is left as it is while v_k is below it.
+    vec2 before = max(push.previous * perMm.xz - kLookupVariance, 0.0);
+    vec2 after = max((push.previous + push.variance) * perMm.xz - kLookupVariance, 0.0);
+    vec2 added = after - before;
+    float mixed = perMm.y * push.variance;
+    mixed = clamp(mixed, -sqrt(added.x * added.y), sqrt(added.x * added.y));
+    // Columns (a, b) and (0, c) of the Cholesky factor of what is added.
+    float a = sqrt(added.x), b = a > 0.0 ? mixed / a : 0.0;
     // The first column is skew: its taps fall between texels. What interpolation adds to the variance there is taken
     // off again: from the second column where it lies along v, from the first where it lies along u.
-    bool steep = abs(first.y) > abs(first.x);
-    float slope = steep ? first.x / first.y : first.y / first.x;
-    float length1 = max(abs(first.x), abs(first.y));
-    float sigma1 = length1 * sigma;
-    float sigma2 = factor.z * sigma;
+    bool steep = abs(b) > abs(a);
+    float slope = steep ? a / b : a > 0.0 ? b / a : 0.0;
+    float sigma1 = max(a, abs(b));
+    float smoothness1 = sqrt(steep ? before.y : before.x), smoothness2 = sqrt(before.y);
+    float sigma2 = sqrt(max(added.y - b * b, 0.0));
     if (abs(slope) > 1e-3) {
-        Kernel k = makeKernel(sigma1, length1 * smoothness);
-        float excess = interpolationVariance(k, slope);
+        float excess = interpolationVariance(makeKernel(sigma1, smoothness1), slope);
         if (!steep) {
             sigma2 = sqrt(max(sigma2 * sigma2 - excess, 0.0));
         } else {
             // Σ_uu shrinks by the excess; the factor of what is left keeps Σ_uv and Σ_vv.
-            float a = sqrt(max(first.x * first.x * push.variance - excess, 1e-8));
-            float r = (first.y * first.y + factor.z * factor.z) * push.variance;
-            float b = min(abs(first.x * first.y) * push.variance / a, sqrt(r));
+            a = sqrt(max(added.x - excess, 1e-8));
+            b = min(abs(mixed) / a, sqrt(added.y));
             sigma1 = b;
             slope = sign(slope) * a / max(b, 1e-6);
-            sigma2 = sqrt(max(r - b * b, 0.0));
+            sigma2 = sqrt(max(added.y - b * b, 0.0));
         }
     }
     accumulated = vec4(0.0);
     if (push.axis == 0) {
-        Kernel k = makeKernel(sigma1, length1 * smoothness);
+        Kernel k = makeKernel(sigma1, smoothness1);
         addTap(texel, tapWeight(k, 0), factor.w);
         for (int i = 1; i <= k.count; ++i) {
             float weight = tapWeight(k, i);
@@ -132,7 +141,7 @@ void main() {
             }
         }
     } else {
-        Kernel k = makeKernel(sigma2, factor.z * smoothness);
+        Kernel k = makeKernel(sigma2, smoothness2);
         addTap(texel, tapWeight(k, 0), factor.w);
         for (int i = 1; i <= k.count; ++i) {
             float weight = tapWeight(k, i);

@@ -11,7 +11,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2DArray levels;  // a layer a Gaussian: rgb; a: island, 0 where uncovered
 layout(binding = 1, scalar) readonly buffer GaussianBuffer { GaussianTerm gaussians[]; };
-layout(binding = 2, rgba32f) writeonly uniform image2D exitance;  // rgb: M; a: coverage
+layout(binding = 2, rgba32f) writeonly uniform image2D exitance;  // rgb: M; a: island, 0 where uncovered
 #ifdef TRANSLUCENCY
 layout(binding = 3) uniform texture2D entry;     // texels; x < 0: none
 layout(binding = 4) uniform texture2D incident;  // a: thickness, mm
@@ -83,5 +83,5 @@ void main() {
         }
     }
 #endif
-    imageStore(exitance, texel, vec4(sum, 1.0));
+    imageStore(exitance, texel, vec4(sum, island));
 }

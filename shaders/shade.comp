@@ -26,12 +26,12 @@ layout(binding = 11, scalar) readonly buffer LightBuffer { LightSampleData light
 #ifdef SKIN
 layout(binding = 12, scalar) readonly buffer AlbedoTableBuffer { float albedoTable[]; };
 layout(binding = 13, scalar) readonly buffer AtlasVertexBuffer { AtlasVertex atlasVertices[]; };
-layout(binding = 14) uniform sampler2D exitance;  // rgb: M; a: coverage
+layout(binding = 14) uniform texture2D exitance;  // rgb: M; a: island
 #ifdef SHADOWS
-layout(binding = 15) uniform sampler2DArray lightVisibility;  // a layer a light, times coverage
+layout(binding = 15) uniform texture2DArray lightVisibility;  // a layer a light
 #endif
 #ifdef AOVS
-layout(binding = 16) uniform sampler2D incident;
+layout(binding = 16) uniform texture2D incident;
 #endif
 #elif defined(SHADOWS)
 layout(binding = 17, scalar) readonly buffer LightViewBuffer { LightView lightViews[]; };
@@ -75,6 +75,9 @@ const float kNoThickness = 60000.0;
 #define ALBEDO_TABLE(i) albedoTable[i]
 #endif
 #include "lib/skin_specular.glsl"
+#ifdef SKIN
+#include "lib/atlas_lookup.glsl"
+#endif
 #include "lib/metallic_roughness.glsl"
 #include "lib/lights.glsl"
 #if defined(SHADOWS) && !defined(SKIN)
@@ -127,19 +130,17 @@ struct Shade {
 };
 
 #ifdef SKIN
-void shadeSkin(inout Shade shade, Material material, vec2 atlasTexel, vec3 p, vec3 smoothNormal, vec3 n, vec3 view) {
+void shadeSkin(inout Shade shade, Material material, vec2 atlasTexel, float island, vec3 p, vec3 smoothNormal, vec3 n, vec3 view) {
     // Facing away from the viewer by the normal map alone: the closest direction that is still seen.
     float mu = max(dot(n, view), 1e-4);
-    vec2 at = atlasTexel / vec2(textureSize(exitance, 0));
-    vec4 leaving = textureLod(exitance, at, 0.0);
-    vec3 m = leaving.a > 0.0 ? leaving.rgb / leaving.a : vec3(0.0);
+    AtlasLookup at = atlasLookup(exitance, atlasTexel, island);
+    vec3 m = lookUp(exitance, at).rgb;
     vec3 after = material.mix >= 1.0 ? vec3(1.0) : pow(shade.albedo, vec3(1.0 - material.mix));
     float through = transmittedFraction(mu, material.specularScale, material.albedoRow) /
                     max(1.0 - material.meanAlbedo, 1e-4);
     shade.diffuse += after * m / kPi * through;
 #ifdef AOVS
-    vec4 arriving = textureLod(incident, at, 0.0);
-    shade.irradiance = leaving.a > 0.0 ? arriving.rgb / leaving.a : vec3(0.0);
+    shade.irradiance = lookUp(incident, at).rgb;
     shade.thickness = texelFetch(incident, clamp(ivec2(atlasTexel), ivec2(0), textureSize(incident, 0) - 1), 0).a;
 #endif
     float scale = clampedSpecularScale(material.specularScale, directionalAlbedo(mu, material.albedoRow));
@@ -153,8 +154,7 @@ void shadeSkin(inout Shade shade, Material material, vec2 atlasTexel, vec3 p, ve
         // The share of each light that the irradiance pass found to arrive: of all its samples together.
         if (light.light != current) {
             current = light.light;
-            float share = textureLod(lightVisibility, vec3(at, float(current)), 0.0).r;
-            visible = leaving.a > 0.0 ? clamp(share / leaving.a, 0.0, 1.0) : 1.0;
+            visible = lookUp(lightVisibility, at, int(current)).r;
         }
 #endif
         if (cosine <= 0.0 || dot(smoothNormal, from.direction) <= 0.0) continue;
@@ -162,7 +162,7 @@ void shadeSkin(inout Shade shade, Material material, vec2 atlasTexel, vec3 p, ve
         shade.specular += from.irradiance * (cosine * scale * lobe * visible);
     }
 #ifdef ENVIRONMENT
-    vec4 open = textureLod(openSky, at, 0.0);
+    vec4 open = textureLod(openSky, atlasTexel / vec2(textureSize(exitance, 0)), 0.0);
     setSky(open.a > 0.0 ? open.xyz / open.a : smoothNormal, smoothNormal);
     shade.specular += environmentSpecularSkin(n, view, material.slope, material.specularScale, material.albedoRow);
 #endif
@@ -268,7 +268,7 @@ Shade shadeAt(uint triangleIndex, vec2 pixel) {
     }
 #ifdef SKIN
     vec2 texel = interpolate(w, atlasVertices[v.x].texel, atlasVertices[v.y].texel, atlasVertices[v.z].texel);
-    shadeSkin(shade, material, texel, p, smoothNormal, n, view);
+    shadeSkin(shade, material, texel, atlasVertices[v.x].island, p, smoothNormal, n, view);
 #else
     vec3 share = vec3(1.0);
 #ifdef ENVIRONMENT

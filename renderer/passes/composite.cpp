@@ -199,13 +199,13 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
         shader += "+SKIN";
         bindings.push_back({"AlbedoTableBuffer", scene.albedoTable});
         bindings.push_back({"AtlasVertexBuffer", scene.atlasVertices});
-        bindings.push_back({"exitance", bilinear(device, input.skin->exitance)});
-        if (aovs) bindings.push_back({"incident", bilinear(device, input.skin->incident)});
+        bindings.push_back({"exitance", input.skin->exitance});
+        if (aovs) bindings.push_back({"incident", input.skin->incident});
     }
     if (input.lights->depth) {
         shader += "+SHADOWS";
         if (skin) {
-            bindings.push_back({"lightVisibility", bilinear(device, input.skin->visibility)});
+            bindings.push_back({"lightVisibility", input.skin->visibility});
         } else {
             bindings.push_back({"LightViewBuffer", input.lights->views});
             bindings.push_back({"lightDepthCompare", depthComparison(device, input.lights->depth)});
