@@ -58,8 +58,7 @@ Bounds boundsOf(const Scene& scene, int node, bool skinOnly) {
 struct Cluster {
     std::vector<int> anchors;  // topmost skin nodes, siblings when there are several
     Bounds bounds;
-    int root =
-        -1;  // topmost ancestor that holds no other cluster; the first anchor when even its parent does
+    int root = -1;  // topmost ancestor without another cluster; the first anchor when even its parent has one
 };
 
 class CharacterFinder {
@@ -93,31 +92,28 @@ class CharacterFinder {
     }
 
   private:
-    // Appends the clusters of the subtree; returns whether there were any. updateWorldTransforms has refused
-    // trees too deep to recurse into.
-    bool collect(int node) {
+    // Appends the clusters of the subtree. updateWorldTransforms has refused trees too deep to recurse into.
+    void collect(int node) {
         if (hasSkin(scene_, node)) {
-            Cluster cluster;
-            cluster.anchors = {node};
-            forSubtree(node, [&](int n) { cluster.bounds.extend(boundsOf(scene_, n, true)); });
-            clusters_.push_back(std::move(cluster));
-            return true;
-        }
-        bool any = false;
-        const std::size_t first = clusters_.size();
-        for (const int child : scene_.nodes[node].children) {
-            if (!hasSkin(scene_, child)) any |= collect(child);
+            clusters_.push_back(clusterOf(node));
+            return;
         }
         std::vector<Cluster> siblings;
         for (const int child : scene_.nodes[node].children) {
-            if (!hasSkin(scene_, child)) continue;
-            collect(child);
-            mergeInto(siblings, std::move(clusters_.back()));
-            clusters_.pop_back();
-            any = true;
+            if (hasSkin(scene_, child)) {
+                mergeInto(siblings, clusterOf(child));
+            } else {
+                collect(child);
+            }
         }
-        clusters_.insert(clusters_.begin() + std::ptrdiff_t(first), siblings.begin(), siblings.end());
-        return any;
+        clusters_.insert(clusters_.end(), siblings.begin(), siblings.end());
+    }
+
+    Cluster clusterOf(int anchor) {
+        Cluster cluster;
+        cluster.anchors = {anchor};
+        forSubtree(anchor, [&](int n) { cluster.bounds.extend(boundsOf(scene_, n, true)); });
+        return cluster;
     }
 
     // Joins `cluster` with all of `siblings` that it touches.
@@ -141,35 +137,33 @@ class CharacterFinder {
         const int index = int(scene_.characters.size());
         Character character;
         character.root = cluster.root;
-        for (const int anchor : cluster.anchors) {
-            forSubtree(anchor, [&](int n) {
-                scene_.nodeCharacter[n] = index;
-                if (hasSkin(scene_, n)) character.bounds.extend(meshBounds_[n]);
-            });
-        }
         std::vector<int> others;
-        forSubtree(cluster.root, [&](int n) {
-            if (scene_.nodes[n].mesh < 0) {
-                scene_.nodeCharacter[n] = index;
-            } else if (!hasSkin(scene_, n)) {
-                others.push_back(n);
-                scene_.nodeCharacter[n] = -1;
-            }
-        });
+        const auto take = [&](int n) {
+            const bool other = scene_.nodes[n].mesh >= 0 && !hasSkin(scene_, n);
+            if (other) others.push_back(n);
+            if (!other) addTo(character, index, n);
+        };
+        if (cluster.root == cluster.anchors[0]) {
+            for (const int anchor : cluster.anchors) forSubtree(anchor, take);
+        } else {
+            forSubtree(cluster.root, take);
+        }
         for (bool grew = true; grew;) {
             grew = false;
             for (const int n : others) {
                 if (scene_.nodeCharacter[n] >= 0 || !belongs(character.bounds, meshBounds_[n])) continue;
-                scene_.nodeCharacter[n] = index;
-                character.bounds.extend(meshBounds_[n]);
+                addTo(character, index, n);
                 grew = true;
             }
         }
-        for (std::size_t n = 0; n < scene_.nodes.size(); ++n) {
-            if (scene_.nodeCharacter[n] == index && scene_.nodes[n].mesh >= 0)
-                character.nodes.push_back(int(n));
-        }
+        std::sort(character.nodes.begin(), character.nodes.end());
         scene_.characters.push_back(std::move(character));
+    }
+
+    void addTo(Character& character, int index, int node) {
+        scene_.nodeCharacter[node] = index;
+        character.bounds.extend(meshBounds_[node]);
+        if (scene_.nodes[node].mesh >= 0) character.nodes.push_back(node);
     }
 
     static bool belongs(const Bounds& character, const Bounds& mesh) {
@@ -184,12 +178,8 @@ class CharacterFinder {
         Character& character = scene_.characters[index];
         for (const int n : scene_.nodes[parent].children) {
             if (scene_.nodeCharacter[n] >= 0 || scene_.nodes[n].mesh < 0) continue;
-            if (!contains(cluster.bounds, meshBounds_[n].centre()) ||
-                !belongs(cluster.bounds, meshBounds_[n]))
-                continue;
-            scene_.nodeCharacter[n] = index;
-            character.nodes.push_back(n);
-            character.bounds.extend(meshBounds_[n]);
+            const bool inside = contains(cluster.bounds, meshBounds_[n].centre());
+            if (inside && belongs(cluster.bounds, meshBounds_[n])) addTo(character, index, n);
         }
         std::sort(character.nodes.begin(), character.nodes.end());
     }

@@ -1,39 +1,26 @@
 #include "renderer/scene/image_io.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
-#include <memory>
 #include <string_view>
+#include <thread>
 
 #include "renderer/core/error.h"
+#include "renderer/core/files.h"
+#include "renderer/scene/codec_module.h"
 
 namespace cutis {
 namespace {
 
 constexpr float kLargestHalf = 65504;
-constexpr std::size_t kMaxPixelBytes = std::size_t(4) << 30;  // of one picture: 16384 x 16384 RGBA floats
+constexpr std::uint64_t kMaxPixelBytes = std::uint64_t(4) << 30;  // of one picture: 16384² RGBA floats
+constexpr int kMaxChannels = 64;
 
-[[noreturn]] void refuse(const std::string& name, std::string why) {
-    while (!why.empty() && (why.back() == '\n' || why.back() == '.')) why.pop_back();
-    throw Error("cannot read image", why.empty() ? "not an image" : why, name);
-}
-
-void checkSize(const OIIO::ImageSpec& spec, int maxWidth, int maxHeight, std::size_t bytesPerTexel,
-               const std::string& name) {
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) refuse(name, "it has no pixels");
-    const std::size_t texels = std::size_t(spec.width) * std::size_t(spec.height);
-    if (spec.width > maxWidth || spec.height > maxHeight || spec.depth > 1 ||
-        texels * bytesPerTexel > kMaxImageBytes) {
-        refuse(name, "it has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                         " texels, the limit is " + std::to_string(maxWidth) + " x " +
-                         std::to_string(maxHeight) + " and 1 GiB");
-    }
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+    throw Error("cannot read image", why, name);
 }
 
 // Channels of the file that stand for R, G, B and A; -1: absent.
@@ -49,22 +36,13 @@ ChannelMap mapChannels(int channels) {
     return {{0, 1, 2}, 3};
 }
 
-template <typename T>
-std::vector<T> readChannels(OIIO::ImageInput& input, int channels, OIIO::TypeDesc type,
-                            const std::string& name) {
-    const OIIO::ImageSpec& spec = input.spec();
-    std::vector<T> values(std::size_t(spec.width) * spec.height * channels);
-    if (!input.read_image(0, 0, 0, channels, type, values.data())) refuse(name, input.geterror());
-    return values;
-}
-
-void fillRgba8(Image& image, const std::vector<std::uint8_t>& values, int channels) {
-    const ChannelMap map = mapChannels(channels);
+void fillRgba8(Image& image, const Pixels& pixels) {
+    const ChannelMap map = mapChannels(pixels.channels);
     const std::size_t texels = std::size_t(image.width) * image.height;
     image.texels.resize(texels * 4);
+    const auto* in = reinterpret_cast<const std::uint8_t*>(pixels.samples.data());
     auto* out = reinterpret_cast<std::uint8_t*>(image.texels.data());
-    for (std::size_t i = 0; i < texels; ++i, out += 4) {
-        const std::uint8_t* in = values.data() + i * channels;
+    for (std::size_t i = 0; i < texels; ++i, in += pixels.channels, out += 4) {
         for (int c = 0; c < 3; ++c) out[c] = in[map.rgb[c]];
         out[3] = map.alpha < 0 ? 255 : in[map.alpha];
         image.opaque &= out[3] == 255;
@@ -75,24 +53,18 @@ float storable(float value) {
     return std::isnan(value) ? 0.f : std::clamp(value, -kLargestHalf, kLargestHalf);
 }
 
-void fillRgba16f(Image& image, const std::vector<float>& values, int channels) {
-    const ChannelMap map = mapChannels(channels);
+void fillRgba16f(Image& image, const Pixels& pixels) {
+    const ChannelMap map = mapChannels(pixels.channels);
     const std::size_t texels = std::size_t(image.width) * image.height;
     image.texels.resize(texels * 8);
-    for (std::size_t i = 0; i < texels; ++i) {
-        const float* in = values.data() + i * channels;
+    const auto* in = reinterpret_cast<const float*>(pixels.samples.data());
+    for (std::size_t i = 0; i < texels; ++i, in += pixels.channels) {
         const glm::vec4 rgba(storable(in[map.rgb[0]]), storable(in[map.rgb[1]]), storable(in[map.rgb[2]]),
                              map.alpha < 0 ? 1.f : storable(in[map.alpha]));
         const std::uint64_t packed = glm::packHalf4x16(rgba);
         std::memcpy(image.texels.data() + i * 8, &packed, 8);
         image.opaque &= rgba.a >= 1;
     }
-}
-
-OIIO::ImageSpec straightAlpha() {
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    return config;
 }
 
 std::uint32_t bigEndian(std::span<const std::byte> bytes, std::size_t at) {
@@ -134,19 +106,18 @@ void checkPng(std::span<const std::byte> file, const std::string& name) {
     }
 }
 
-// A reader for a file in memory. ImageInput::open would look for the file on disk.
-std::unique_ptr<OIIO::ImageInput> openMemory(const std::string& format, OIIO::Filesystem::IOProxy& proxy,
-                                             const std::string& name) {
-    auto input = OIIO::ImageInput::create(format);
-    OIIO::ImageSpec spec;
-    if (!input || !input->supports("ioproxy"))
-        refuse(name, "OpenImageIO cannot read " + format + " from memory");
-    input->set_ioproxy(&proxy);
-    if (!input->open("image." + format, spec, straightAlpha())) refuse(name, input->geterror());
-    return input;
-}
-
 }  // namespace
+
+void preloadImageIo() {
+    // Whoever needs the codec meanwhile waits for it there, and a failure is reported there. Static: a
+    // program that ends early must not unload what is still being loaded.
+    static const std::jthread loader([] {
+        try {
+            imageCodec();
+        } catch (const Error&) {
+        }
+    });
+}
 
 std::string imageFormat(std::span<const std::byte> file) {
     const std::string_view head(reinterpret_cast<const char*>(file.data()),
@@ -154,7 +125,7 @@ std::string imageFormat(std::span<const std::byte> file) {
     const auto starts = [&](std::string_view magic) { return head.starts_with(magic); };
     if (starts("\x89PNG")) return "png";
     if (starts("\xff\xd8\xff")) return "jpeg";
-    if (starts("RIFF") && head.substr(8) == "WEBP") return "webp";
+    if (starts("RIFF") && head.size() == 12 && head.substr(8) == "WEBP") return "webp";
     if (starts(std::string_view("II*\0", 4)) || starts(std::string_view("MM\0*", 4))) return "tiff";
     if (starts("\x76\x2f\x31\x01")) return "openexr";
     if (starts("#?")) return "hdr";
@@ -164,28 +135,25 @@ std::string imageFormat(std::span<const std::byte> file) {
 }
 
 Image decodeImage(std::span<const std::byte> file, const std::string& name, bool* floatFile) {
+    // The reader is chosen by content: the extension of a file or the MIME type of a buffer may be wrong.
     const std::string format = imageFormat(file);
     if (format.empty()) refuse(name, "not an image of a known format");
     if (format == "png") checkPng(file, name);
-    OIIO::Filesystem::IOMemReader reader(const_cast<std::byte*>(file.data()), file.size());
-    // The reader is chosen by content: the extension of a file or the MIME type of a buffer may be wrong.
-    const auto input = openMemory(format, reader, name);
-    const OIIO::ImageSpec spec = input->spec();
-    const bool eightBit = spec.format == OIIO::TypeDesc::UINT8;
-    checkSize(spec, kMaxImageSize, kMaxImageSize, eightBit ? 4 : 8, name);
-
-    const int channels = std::min(spec.nchannels, 4);
+    Pixels pixels;
+    const std::string why =
+        imageCodec().decodeMemory(file, format, {kMaxImageSize, kMaxImageSize, 4, kMaxImageBytes}, pixels);
+    if (!why.empty()) refuse(name, why);
     Image image;
     image.name = name;
-    image.width = spec.width;
-    image.height = spec.height;
-    image.format = eightBit ? TexelFormat::rgba8 : TexelFormat::rgba16f;
-    if (eightBit) {
-        fillRgba8(image, readChannels<std::uint8_t>(*input, channels, OIIO::TypeDesc::UINT8, name), channels);
+    image.width = pixels.width;
+    image.height = pixels.height;
+    image.format = pixels.type == SampleType::uint8 ? TexelFormat::rgba8 : TexelFormat::rgba16f;
+    if (image.format == TexelFormat::rgba8) {
+        fillRgba8(image, pixels);
     } else {
-        fillRgba16f(image, readChannels<float>(*input, channels, OIIO::TypeDesc::FLOAT, name), channels);
+        fillRgba16f(image, pixels);
     }
-    if (floatFile) *floatFile = spec.format.is_floating_point();
+    if (floatFile) *floatFile = pixels.isFloat;
     return image;
 }
 
@@ -194,18 +162,19 @@ std::vector<std::byte> encodePng(const Image& image) {
     if (image.format != TexelFormat::rgba8 || image.texels.size() != texels * 4 || texels == 0) {
         throw Error("cannot write image", "only whole images of 8 bits can become PNG", image.name);
     }
-    const int channels = image.opaque ? 3 : 4;
-    OIIO::ImageSpec spec(image.width, image.height, channels, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    std::vector<unsigned char> file;
-    OIIO::Filesystem::IOVecOutput sink(file);
-    const auto output = OIIO::ImageOutput::create("image.png", &sink);
-    if (!output || !output->open("image.png", spec) ||
-        !output->write_image(OIIO::TypeDesc::UINT8, image.texels.data(), 4) || !output->close()) {
-        throw Error("cannot write image", output ? output->geterror() : OIIO::geterror(), image.name);
+    Pixels pixels;
+    pixels.width = image.width;
+    pixels.height = image.height;
+    pixels.channels = image.opaque ? 3 : 4;
+    pixels.samples.reserve(texels * pixels.channels);
+    for (std::size_t i = 0; i < texels; ++i) {
+        const auto texel = image.texels.begin() + std::ptrdiff_t(4 * i);
+        pixels.samples.insert(pixels.samples.end(), texel, texel + pixels.channels);
     }
-    const auto bytes = std::as_bytes(std::span(file));
-    return {bytes.begin(), bytes.end()};
+    std::vector<std::byte> file;
+    const std::string why = imageCodec().encodePng(pixels, file);
+    if (!why.empty()) throw Error("cannot write image", why, image.name);
+    return file;
 }
 
 Picture readPixels(const std::filesystem::path& path, int maxWidth, int maxHeight, bool* integers) {
@@ -213,20 +182,30 @@ Picture readPixels(const std::filesystem::path& path, int maxWidth, int maxHeigh
     std::error_code error;
     if (!std::filesystem::exists(path, error)) refuse(name, "no such file");
     if (!std::filesystem::is_regular_file(path, error)) refuse(name, "not a regular file");
-    const OIIO::ImageSpec config = straightAlpha();
-    const auto input = OIIO::ImageInput::open(name, &config);
-    if (!input) refuse(name, OIIO::geterror());
-    const OIIO::ImageSpec spec = input->spec();
-    checkSize(spec, maxWidth, maxHeight, 1, name);
-    const std::size_t bytes = std::size_t(spec.width) * spec.height * spec.nchannels * sizeof(float);
-    if (bytes > kMaxPixelBytes) refuse(name, "its pixels take more than 4 GiB");
+    Pixels pixels;
+    const std::string why =
+        imageCodec().decodeFile(name, {maxWidth, maxHeight, kMaxChannels, kMaxPixelBytes}, pixels);
+    if (!why.empty()) refuse(name, why);
     Picture picture;
-    picture.width = spec.width;
-    picture.height = spec.height;
-    picture.channels = spec.nchannels;
-    picture.values = readChannels<float>(*input, spec.nchannels, OIIO::TypeDesc::FLOAT, name);
-    if (integers) *integers = !spec.format.is_floating_point();
+    picture.width = pixels.width;
+    picture.height = pixels.height;
+    picture.channels = pixels.channels;
+    picture.values.resize(std::size_t(pixels.width) * pixels.height * pixels.channels);
+    if (pixels.type == SampleType::float32) {
+        std::memcpy(picture.values.data(), pixels.samples.data(), pixels.samples.size());
+    } else {
+        std::ranges::transform(pixels.samples, picture.values.begin(),
+                               [](std::byte b) { return float(std::to_integer<int>(b)) / 255; });
+    }
+    if (integers) *integers = !pixels.isFloat;
     return picture;
+}
+
+void writePixels(const std::filesystem::path& path, const Pixels& pixels) {
+    writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
+        const std::string why = imageCodec().writeFile(temporary.string(), pixels);
+        if (!why.empty()) throw Error("cannot write picture", why, path.string());
+    });
 }
 
 }  // namespace cutis

@@ -1,4 +1,4 @@
-// Image files in memory and on disk, all through OpenImageIO.
+// Image files in memory and on disk, all through OpenImageIO (see codec/image_codec.h).
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "renderer/scene/codec/image_codec.h"
 #include "renderer/scene/picture.h"
 #include "renderer/scene/scene.h"
 
 namespace cutis {
 
 inline constexpr int kMaxImageSize = 16384;                          // texels along either side
-inline constexpr std::size_t kMaxImageBytes = std::size_t(1) << 30;  // of one decoded image
+inline constexpr std::size_t kMaxImageBytes = std::size_t(1) << 30;  // of one image, decoded
+
+// Starts loading OpenImageIO in the background: a program that knows that it will need it calls this first
+// thing.
+void preloadImageIo();
 
 // A file's format by its first bytes as OpenImageIO names it ("png", "jpeg", "webp", …), empty when unknown.
 std::string imageFormat(std::span<const std::byte> file);
@@ -29,5 +34,9 @@ std::vector<std::byte> encodePng(const Image& image);
 // A file's pixels as float, with all its channels; 8-bit and 16-bit values in [0, 1] as stored. `integers`
 // tells whether the file holds whole numbers. Throws Error; checks the limits before it decodes.
 Picture readPixels(const std::filesystem::path& path, int maxWidth, int maxHeight, bool* integers = nullptr);
+
+// Writes a file in the format of the extension: EXR as zip-compressed floats. Written atomically. Throws
+// Error.
+void writePixels(const std::filesystem::path& path, const Pixels& pixels);
 
 }  // namespace cutis

@@ -1,11 +1,10 @@
 #include "renderer/scene/picture.h"
 
-#include <OpenImageIO/imageio.h>
-
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "renderer/core/error.h"
-#include "renderer/core/files.h"
 #include "renderer/core/parallel.h"
 #include "renderer/scene/image_io.h"
 #include "renderer/scene/tonemap.h"
@@ -22,36 +21,8 @@ void checkWhole(const Picture& picture, const std::filesystem::path& path) {
     }
 }
 
-void writeImage(const std::filesystem::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-                const void* values) {
-    writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
-        const auto output = OIIO::ImageOutput::create(temporary.string());
-        if (!output || !output->open(temporary.string(), spec) || !output->write_image(type, values) ||
-            !output->close()) {
-            throw Error("cannot write picture", output ? output->geterror() : OIIO::geterror(),
-                        path.string());
-        }
-    });
-}
-
-std::vector<std::string> channelNames(int channels) {
-    switch (channels) {
-        case 1:
-            return {"Y"};
-        case 2:
-            return {"Y", "A"};
-        case 3:
-            return {"R", "G", "B"};
-        case 4:
-            return {"R", "G", "B", "A"};
-    }
-    std::vector<std::string> names;
-    for (int c = 0; c < channels; ++c) names.push_back("channel" + std::to_string(c));
-    return names;
-}
-
-std::uint8_t quantize(float linear) {
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(encodeSrgb(linear), 0.f, 1.f)));
+std::byte quantize(float linear) {
+    return static_cast<std::byte>(std::lround(255 * std::clamp(encodeSrgb(linear), 0.f, 1.f)));
 }
 
 // A picture holds no NaN unless something is wrong; it must not become undefined behaviour in the conversion
@@ -61,35 +32,40 @@ float finite(float value) {
     return std::isnan(value) ? 0.f : std::clamp(value, -kLargest, kLargest);
 }
 
+Pixels emptyPixels(const Picture& picture, int channels, SampleType type, std::size_t sampleBytes) {
+    Pixels pixels;
+    pixels.width = picture.width;
+    pixels.height = picture.height;
+    pixels.channels = channels;
+    pixels.type = type;
+    pixels.samples.resize(std::size_t(picture.width) * picture.height * channels * sampleBytes);
+    return pixels;
+}
+
 }  // namespace
 
 void writeExr(const std::filesystem::path& path, const Picture& picture) {
     checkWhole(picture, path);
-    OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::FLOAT);
-    spec.channelnames = channelNames(picture.channels);
-    if (picture.channels == 2 || picture.channels == 4) spec.alpha_channel = picture.channels - 1;
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", "Linear");
-    writeImage(path, spec, OIIO::TypeDesc::FLOAT, picture.values.data());
+    Pixels pixels = emptyPixels(picture, picture.channels, SampleType::float32, sizeof(float));
+    std::memcpy(pixels.samples.data(), picture.values.data(), pixels.samples.size());
+    writePixels(path, pixels);
 }
 
 void writePng(const std::filesystem::path& path, const Picture& linear, double exposure) {
     checkWhole(linear, path);
     const float gain = static_cast<float>(std::exp2(exposure));
     const int n = linear.channels;
-    std::vector<std::uint8_t> pixels(std::size_t(linear.width) * linear.height * 3);
+    Pixels pixels = emptyPixels(linear, 3, SampleType::uint8, 1);
     parallelFor(std::size_t(linear.height), [&](std::size_t y) {
         for (std::size_t i = y * linear.width; i < (y + 1) * linear.width; ++i) {
             const float* in = linear.values.data() + i * n;
             const glm::vec3 color = n < 3 ? glm::vec3(in[0]) : glm::vec3(in[0], in[1], in[2]);
             const glm::vec3 shown =
                 toneMapNeutral({finite(color.r * gain), finite(color.g * gain), finite(color.b * gain)});
-            for (int c = 0; c < 3; ++c) pixels[i * 3 + c] = quantize(shown[c]);
+            for (int c = 0; c < 3; ++c) pixels.samples[i * 3 + c] = quantize(shown[c]);
         }
     });
-    OIIO::ImageSpec spec(linear.width, linear.height, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    writeImage(path, spec, OIIO::TypeDesc::UINT8, pixels.data());
+    writePixels(path, pixels);
 }
 
 Picture readPicture(const std::filesystem::path& path) {

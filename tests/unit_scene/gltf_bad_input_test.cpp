@@ -306,7 +306,7 @@ TEST(GltfBadInputBytes, NoChangedByteDoesHarm) {
     const auto bytes = readFile(goodFile().saveGlb(folder.path()));
     int refused = 0;
     for (std::size_t i = 0; i < bytes.size(); ++i) {
-        for (const int value : {0, 0x39, 0xff}) {
+        for (const int value : {0x39, 0xff}) {  // a digit, and no ASCII
             auto changed = bytes;
             changed[i] = std::byte(value);
             test::writeBytes(folder / "changed.glb", changed.data(), changed.size());

@@ -1,0 +1,130 @@
+#include "renderer/scene/codec/image_codec.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace cutis {
+namespace {
+
+OIIO::TypeDesc typeOf(SampleType type) {
+    switch (type) {
+        case SampleType::uint8:
+            return OIIO::TypeDesc::UINT8;
+        case SampleType::uint16:
+            return OIIO::TypeDesc::UINT16;
+        case SampleType::float32:
+            break;
+    }
+    return OIIO::TypeDesc::FLOAT;
+}
+
+std::string orUnknown(std::string why) {
+    while (!why.empty() && (why.back() == '\n' || why.back() == '.')) why.pop_back();
+    return why.empty() ? "not an image" : why;
+}
+
+OIIO::ImageSpec straightAlpha() {
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    return config;
+}
+
+std::string readPixels(OIIO::ImageInput& input, const PixelLimits& limits, Pixels& pixels) {
+    const OIIO::ImageSpec spec = input.spec();
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
+    const bool eightBit = spec.format == OIIO::TypeDesc::UINT8;
+    pixels.width = spec.width;
+    pixels.height = spec.height;
+    pixels.channels = std::min(spec.nchannels, limits.channels);
+    pixels.type = eightBit ? SampleType::uint8 : SampleType::float32;
+    pixels.isFloat = spec.format.is_floating_point();
+    const std::uint64_t bytes = std::uint64_t(spec.width) * std::uint64_t(spec.height) *
+                                std::uint64_t(pixels.channels) * (eightBit ? 1 : sizeof(float));
+    if (spec.width > limits.width || spec.height > limits.height || spec.depth > 1 || bytes > limits.bytes) {
+        return "it has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+               " texels, the limit is " + std::to_string(limits.width) + " x " +
+               std::to_string(limits.height) + " and " + std::to_string(limits.bytes >> 20) + " MiB decoded";
+    }
+    pixels.samples.resize(bytes);
+    if (input.read_image(0, 0, 0, pixels.channels, typeOf(pixels.type), pixels.samples.data())) return {};
+    return orUnknown(input.geterror());
+}
+
+// The exceptions of OpenImageIO and of the libraries below it end here.
+template <typename Work>
+std::string guarded(const Work& work) {
+    try {
+        return work();
+    } catch (const std::exception& error) {
+        return orUnknown(error.what());
+    }
+}
+
+std::string decodeMemory(std::span<const std::byte> file, const std::string& format,
+                         const PixelLimits& limits, Pixels& pixels) {
+    return guarded([&]() -> std::string {
+        OIIO::Filesystem::IOMemReader reader(const_cast<std::byte*>(file.data()), file.size());
+        // ImageInput::open would look for a file of that name on disk.
+        const auto input = OIIO::ImageInput::create(format);
+        if (!input || !input->supports("ioproxy"))
+            return "OpenImageIO cannot read " + format + " from memory";
+        input->set_ioproxy(&reader);
+        OIIO::ImageSpec spec;
+        if (!input->open("image." + format, spec, straightAlpha())) return orUnknown(input->geterror());
+        return readPixels(*input, limits, pixels);
+    });
+}
+
+std::string decodeFile(const std::string& path, const PixelLimits& limits, Pixels& pixels) {
+    return guarded([&]() -> std::string {
+        const OIIO::ImageSpec config = straightAlpha();
+        const auto input = OIIO::ImageInput::open(path, &config);
+        return input ? readPixels(*input, limits, pixels) : orUnknown(OIIO::geterror());
+    });
+}
+
+OIIO::ImageSpec specOf(const Pixels& pixels) {
+    OIIO::ImageSpec spec(pixels.width, pixels.height, pixels.channels, typeOf(pixels.type));
+    if (pixels.channels <= 2) spec.channelnames = {"Y", "A"};
+    spec.channelnames.resize(std::size_t(pixels.channels));
+    spec.alpha_channel = pixels.channels == 2 || pixels.channels == 4 ? pixels.channels - 1 : -1;
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("oiio:ColorSpace", pixels.type == SampleType::float32 ? "Linear" : "sRGB");
+    if (pixels.type == SampleType::float32) spec.attribute("compression", "zip");
+    return spec;
+}
+
+std::string writePixels(OIIO::ImageOutput* output, const std::string& name, const Pixels& pixels) {
+    if (!output) return orUnknown(OIIO::geterror());
+    const bool written = output->open(name, specOf(pixels)) &&
+                         output->write_image(typeOf(pixels.type), pixels.samples.data()) && output->close();
+    return written ? std::string() : orUnknown(output->geterror());
+}
+
+std::string encodePng(const Pixels& pixels, std::vector<std::byte>& file) {
+    return guarded([&] {
+        std::vector<unsigned char> bytes;
+        OIIO::Filesystem::IOVecOutput sink(bytes);
+        const std::string why =
+            writePixels(OIIO::ImageOutput::create("image.png", &sink).get(), "image.png", pixels);
+        const auto view = std::as_bytes(std::span(bytes));
+        file.assign(view.begin(), view.end());
+        return why;
+    });
+}
+
+std::string writeFile(const std::string& path, const Pixels& pixels) {
+    return guarded([&] { return writePixels(OIIO::ImageOutput::create(path).get(), path, pixels); });
+}
+
+}  // namespace
+}  // namespace cutis
+
+const cutis::ImageCodec* cutisImageCodec() {
+    static const cutis::ImageCodec codec{cutis::decodeMemory, cutis::decodeFile, cutis::encodePng,
+                                         cutis::writeFile};
+    return &codec;
+}
