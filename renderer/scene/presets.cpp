@@ -77,17 +77,17 @@ std::vector<Light> loop() {
             softbox("fill", {-40, 5, 2.2, 6300}, {1.2, 1.2}, kKeyIrradiance / 4)};
 }
 
-// From the side: one half of the face lit, the other in shadow.
+// From the side: one half of the face lit, the other in shadow. At 90° the light would graze the lit half, too.
 std::vector<Light> split() {
-    return {softbox("key", {90, 8, 1.8, 5400}, {0.6, 0.9}, kKeyIrradiance),
-            softbox("fill", {-60, 5, 2.4, 6500}, {1.2, 1.2}, kKeyIrradiance / 16)};
+    return {softbox("key", {78, 8, 1.8, 5400}, {0.6, 0.9}, kKeyIrradiance),
+            softbox("fill", {-60, 5, 2.4, 6500}, {1.2, 1.2}, kKeyIrradiance / 12)};
 }
 
 // Two lights from behind draw the outline and shine through the ears; a faint fill keeps the face readable.
 std::vector<Light> rim() {
     return {dish("rim left", {-145, 20, 2.0, 5000}, 0.09, 1.5 * kKeyIrradiance),
             dish("rim right", {145, 20, 2.0, 5000}, 0.09, 1.5 * kKeyIrradiance),
-            softbox("fill", {0, 20, 2.2, 6500}, {1.5, 1.0}, kKeyIrradiance / 8)};
+            softbox("fill", {0, 20, 2.2, 6500}, {1.5, 1.0}, kKeyIrradiance / 5)};
 }
 
 // Above and below the lens, as two halves of a shell: the beauty light, nearly without shadows.
@@ -112,7 +112,7 @@ const std::vector<Entry>& entries() {
         {{"rembrandt", "high side key, a lit triangle on the far cheek, fill 8:1"}, "Rembrandt", rembrandt},
         {{"butterfly", "key straight above the lens, fill from below 6:1"}, "Butterfly", butterfly},
         {{"loop", "key a little to the side and above, fill 4:1"}, "Loop", loop},
-        {{"split", "key from the side, half of the face dark, fill 16:1"}, "Split", split},
+        {{"split", "key from the side, half of the face dark, fill 12:1"}, "Split", split},
         {{"rim", "two lights from behind that glow through ears, faint fill"}, "Rim", rim},
         {{"clamshell", "key above and reflector below the lens 2:1"}, "Clamshell", clamshell},
         {{"single", "one soft key"}, "Single", single},
