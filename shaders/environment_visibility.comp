@@ -31,6 +31,7 @@ layout(push_constant, scalar) uniform Push {
     uint count;          // directions in the batch
     uint batch;          // which 32 bits
     uint firstVertex, vertexCount, firstProbe, probeCount;
+    float clearance;  // metres: how far a coarser mesh may stand above the surface
 } push;
 
 #include "lib/environment_probe.glsl"
@@ -45,7 +46,7 @@ uint visibilityBits(vec3 p, vec3 n) {
         vec3 l = -normalize(away);
         if (dot(n, l) <= -0.2) continue;  // normal maps tilt by no more than this
         // At grazing angles the surface itself decides, not its map.
-        LightMapPoint at = locateInLightMap(view, p, n, l);
+        LightMapPoint at = locateInLightMap(view, p, n, l, push.clearance);
         if (!at.inside || compareLightMap(view.layer, at, vec2(0.0)) > 0.5) bits |= 1u << i;
     }
     return bits;

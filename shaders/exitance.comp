@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // features: TRANSLUCENCY
 #include "shared/scene.h"
+#include "lib/octahedral.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -16,8 +17,8 @@ layout(binding = 2, rgba32f) writeonly uniform image2D exitance;  // rgb: M; a: 
 layout(binding = 3) uniform texture2D entry;     // texels; x < 0: none
 layout(binding = 4) uniform texture2D incident;  // a: thickness, mm
 layout(binding = 5) uniform texture2D stretch;
-layout(binding = 6) uniform texture2D position;
-layout(binding = 7, scalar) readonly buffer DrawBuffer { DrawInfo draws[]; };
+layout(binding = 6) uniform texture2D position;  // metres
+layout(binding = 7) uniform texture2D normal;
 #endif
 
 layout(push_constant, scalar) uniform Push {
@@ -70,10 +71,19 @@ void main() {
         // How far the entry point lies over the surface: light from nearby is in the local levels already.
         ivec2 entryTexel = ivec2(place);
         vec4 here = texelFetch(stretch, texel, 0), there = texelFetch(stretch, entryTexel, 0);
-        float apart = 1e30;
+        float apart;
         if (here.w == there.w) {
             vec2 d = place - (vec2(texel) + 0.5);
             apart = 0.5 * (stepLength(d, here.xyz) + stepLength(d, there.xyz));
+        } else {
+            // Between islands the atlas measures nothing. A face that looks the other way is another side of the
+            // body; one that looks the same way lies just across a seam, about as far as the straight line.
+            vec3 n = decodeOctahedral(texelFetch(normal, texel, 0).xy);
+            vec3 entryNormal = decodeOctahedral(texelFetch(normal, entryTexel, 0).xy);
+            apart = dot(n, entryNormal) < 0.0
+                        ? 1e30
+                        : push.mmPerUnit * distance(texelFetch(position, texel, 0).xyz,
+                                                    texelFetch(position, entryTexel, 0).xyz);
         }
         for (uint k = 0u; k < push.gaussianCount; ++k) {
             GaussianTerm term = gaussians[push.firstGaussian + k];

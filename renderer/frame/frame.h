@@ -17,6 +17,9 @@
 
 namespace cutis {
 
+// Texels along each side of the depth map of one direction of the sky.
+inline constexpr int kVisibilityMapSize = 256;
+
 struct FrameContext {
     gpu::Device* device = nullptr;
     gpu::Commands* commands = nullptr;
@@ -38,6 +41,7 @@ struct FrameContext {
     SurfaceImages surface;
     LightMaps lights;
     EnvironmentVisibility visibility;
+    double proxyError = 0;  // metres by which the sky's occluders may stand off the meshes
     SkinLight skin;
     shared::ViewCamera camera{};
     PictureTarget target;

@@ -44,8 +44,8 @@ struct Geometry {
 // Throws Error when the scene holds more than 2³² / 3 triangles or vertices, or skin without texture coordinates.
 Geometry flattenScene(const Scene& scene);
 
-// Appends to `indices` a coarser form of every draw, for shadows of the sky alone: they are found at a resolution of
-// millimetres, and in a hundred directions. Surfaces move by at most `error` metres.
-void addOcclusionProxies(Geometry& geometry, double error = 7e-4);
+// Appends to `indices` a coarser form of every draw, for shadows of the sky alone: they are found at a coarse resolution
+// and in a hundred directions. Surfaces move by at most `error` metres.
+void addOcclusionProxies(Geometry& geometry, double error);
 
 }  // namespace cutis

@@ -14,7 +14,6 @@ namespace {
 constexpr int kSupersampling = 3;
 // Directions in which the environment's visibility is known: enough that a hemisphere's irradiance is within 2 %.
 constexpr int kVisibilityDirections = 128;
-constexpr int kVisibilityMapSize = 256;
 // Memory that light maps may take, and the sizes that they may have.
 constexpr std::uint64_t kLightMapBytes = std::uint64_t(512) << 20;
 constexpr int kLargestLightMap = 2048, kSmallestLightMap = 128;
@@ -96,7 +95,8 @@ void environmentVisibilityRow(FrameContext& frame) {
                                 .casters = frame.geometry.bounds,
                                 .origin = frame.geometry.origin,
                                 .probeCount = frame.geometry.probeCount,
-                                .mapSize = kVisibilityMapSize};
+                                .mapSize = kVisibilityMapSize,
+                                .clearance = 2 * static_cast<float>(frame.proxyError)};
     const std::vector<glm::dvec3> directions = visibilityDirections(kVisibilityDirections);
     const std::vector<glm::vec3> narrow(directions.begin(), directions.end());
     const EnvironmentSettings& settings = frame.input->rig.environment;

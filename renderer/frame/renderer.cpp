@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "renderer/core/error.h"
 #include "renderer/frame/camera.h"
@@ -200,7 +201,15 @@ RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const 
         for (shared::DrawInfo& draw : frame.geometry.drawInfos) draw.chart = shared::NO_CHART;
     }
 
-    if (frame.needs[Need::environment]) addOcclusionProxies(frame.geometry);
+    if (frame.needs[Need::environment]) {
+        // A third of a texel of the finest map that these meshes are drawn into.
+        double texel = std::numeric_limits<double>::infinity();
+        for (const Bounds& group : frame.groups) {
+            texel = std::min(texel, glm::length(group.size()) / kVisibilityMapSize);
+        }
+        frame.proxyError = 0.3 * texel;
+        addOcclusionProxies(frame.geometry, frame.proxyError);
+    }
 
     RenderResult result;
     {

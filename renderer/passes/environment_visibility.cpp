@@ -14,6 +14,7 @@ constexpr std::uint32_t kBatch = 32;  // directions at a time: the bits of a wor
 struct BitsPush {
     std::uint32_t receiverGroup, firstView, count, batch;
     std::uint32_t firstVertex, vertexCount, firstProbe, probeCount;
+    float clearance;
 };
 
 struct OcclusionPush {
@@ -68,7 +69,7 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
             recordLightMaps(device, commands, *input.scene,
                             {.depth = &depth, .viewBuffer = &viewBuffer, .views = views, .firstView = firstView,
                              .viewCount = count, .proxies = true});
-            BitsPush push{g, firstView, count, word, 0, 0, 0, input.probeCount};
+            BitsPush push{g, firstView, count, word, 0, 0, 0, input.probeCount, input.clearance};
             if (input.surface) {
                 const gpu::Program& program = device.program("environment_visibility.comp");
                 commands.dispatch(program,

@@ -21,6 +21,7 @@ struct VisibilityInput {
     glm::dvec3 origin{0};
     std::uint32_t probeCount = 0;  // vertices that are not skin
     int mapSize = 256;             // texels of a direction's depth map
+    float clearance = 0;           // metres by which the meshes drawn may stand above the surface
 };
 
 // Fills the bits of `directions` (unit, towards the sky; a multiple of 32).

@@ -25,6 +25,8 @@ void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuf
         bindings.push_back({"entry", light.entry});
         bindings.push_back({"incident", light.incident});
         bindings.push_back({"stretch", surface.stretch});
+        bindings.push_back({"position", surface.position});
+        bindings.push_back({"normal", surface.normal});
     }
     // Texels between charts must read as uncovered.
     commands.clear(light.exitance);

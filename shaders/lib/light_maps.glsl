@@ -21,8 +21,9 @@ vec3 projectToLightMap(LightView view, vec3 p) {
     return clip.w > 0.0 ? vec3(clip.xy / clip.w * 0.5 + 0.5, clip.z / clip.w) : vec3(-1.0);
 }
 
-// p: point to light; n: its unit normal, towards the light's side; l: unit direction to the light.
-LightMapPoint locateInLightMap(LightView view, vec3 p, vec3 n, vec3 l) {
+// p: point to light; n: its unit normal, towards the light's side; l: unit direction to the light; clearance: how far, in
+// metres, what is drawn in the map may stand above the true surface.
+LightMapPoint locateInLightMap(LightView view, vec3 p, vec3 n, vec3 l, float clearance) {
     LightMapPoint at;
     vec3 here = projectToLightMap(view, p);
     at.distance = lightMapDistance(view, here.z);
@@ -30,7 +31,7 @@ LightMapPoint locateInLightMap(LightView view, vec3 p, vec3 n, vec3 l) {
     // Moving the receiver along its normal by the height that a slanted surface gains over one texel removes acne
     // without detaching shadows where light is perpendicular.
     float cosine = clamp(dot(n, l), 0.0, 1.0);
-    vec3 lifted = p + n * (at.texel * (0.25 + 1.5 * sqrt(1.0 - cosine * cosine)));
+    vec3 lifted = p + n * (clearance + at.texel * (0.25 + 1.5 * sqrt(1.0 - cosine * cosine)));
     at.uvDepth = projectToLightMap(view, lifted);
     at.inside = all(greaterThanEqual(at.uvDepth.xy, vec2(0.0))) && all(lessThanEqual(at.uvDepth.xy, vec2(1.0))) &&
                 at.uvDepth.z > 0.0;
@@ -67,7 +68,7 @@ const float kWidestFilter = 48.0;  // texels
 // The lit share of a light sample at p, in [0,1]. `extent` is the radius of the source in metres at `lightDistance`
 // metres (directional: radians and 1): the blocker's distance makes the penumbra (Fernando 2005).
 float lightMapVisibility(LightView view, vec3 p, vec3 n, vec3 l, float extent, float lightDistance, bool directional) {
-    LightMapPoint at = locateInLightMap(view, p, n, l);
+    LightMapPoint at = locateInLightMap(view, p, n, l, 0.0);
     if (!at.inside) return 1.0;
     vec2 texel = 1.0 / vec2(textureSize(lightDepth, 0).xy);
     float filterTexels = 0.75;  // radius; at the least the tent of three texels that hides the map's own steps
