@@ -63,6 +63,28 @@ std::string decodePercent(std::string_view text, const JsonView& where) {
     return decoded;
 }
 
+// Why the text must not be parsed: a document of nothing but brackets takes 30 times its size in memory, so
+// what is not in strings (where embedded data is) is limited; nesting too, for whoever recurses.
+std::string excessOf(std::span<const std::byte> text) {
+    constexpr std::size_t kMaxStructure = std::size_t(128) << 20, kMaxDepth = 256;
+    std::size_t structure = 0, depth = 0;
+    bool inString = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = char(text[i]);
+        if (inString) {
+            if (c == '\\') ++i;
+            inString = c != '"';
+            continue;
+        }
+        inString = c == '"';
+        if (c == '[' || c == '{') ++depth;
+        if ((c == ']' || c == '}') && depth > 0) --depth;
+        if (depth > kMaxDepth) return "its JSON nests more than " + std::to_string(kMaxDepth) + " deep";
+        if (++structure > kMaxStructure) return "its JSON has more than 128 MiB outside of strings";
+    }
+    return {};
+}
+
 bool isWithin(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
@@ -115,6 +137,7 @@ void Document::openContainer() {
 }
 
 void Document::parse(std::span<const std::byte> text) {
+    if (const std::string why = excessOf(text); !why.empty()) throw Error(source_.what, why, source_.file);
     const char* begin = reinterpret_cast<const char*>(text.data());
     try {
         json_ = std::make_unique<nlohmann::json>(nlohmann::json::parse(begin, begin + text.size()));

@@ -332,7 +332,13 @@ TEST(GltfBadInputBytes, NestingWithoutEnd) {
     EXPECT_THROW(loadGltf(folder / "open.gltf"), Error);
     const std::string closed = open + deep + std::string(deep.size(), ']') + "}";
     test::writeBytes(folder / "closed.gltf", closed.data(), closed.size());
-    EXPECT_TRUE(loadGltf(folder / "closed.gltf").nodes.empty());
+    EXPECT_THROW(loadGltf(folder / "closed.gltf"), Error);
+    const std::string shallow = open + std::string(200, '[') + std::string(200, ']') + "}";
+    test::writeBytes(folder / "shallow.gltf", shallow.data(), shallow.size());
+    EXPECT_TRUE(loadGltf(folder / "shallow.gltf").nodes.empty());
+    const std::string brackets = open + "\"\\\"" + deep + "\"}";  // in a string they are text
+    test::writeBytes(folder / "brackets.gltf", brackets.data(), brackets.size());
+    EXPECT_TRUE(loadGltf(folder / "brackets.gltf").nodes.empty());
 }
 
 TEST(GltfBadInputBytes, NoFileOrAFolder) {
