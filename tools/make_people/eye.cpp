@@ -85,44 +85,56 @@ TriangleMesh makeEyeball(const Eye& eye, double irisScale) {
 }
 
 void shadeByOpenness(TriangleMesh& ball, const Eye& eye, const TriangleMesh& walls) {
-    // Only walls within three radii matter; on a half of the sphere of directions that is 2 cm away at most.
-    std::vector<std::array<glm::dvec3, 3>> near;
-    for (std::size_t t = 0; t + 2 < walls.indices.size(); t += 3) {
-        std::array<glm::dvec3, 3> p{};
-        bool close = false;
-        for (int k = 0; k < 3; ++k) {
-            p[k] = walls.positions[walls.indices[t + k]];
-            close = close || glm::distance(p[k], eye.centre) < 1.7 * eye.radius;
-        }
-        if (close) near.push_back(p);
-    }
-    const auto hits = [&](const glm::dvec3& origin, const glm::dvec3& direction) {
-        for (const auto& p : near) {  // Möller & Trumbore 1997
-            const glm::dvec3 e1 = p[1] - p[0], e2 = p[2] - p[0], h = glm::cross(direction, e2);
-            const double det = glm::dot(e1, h);
-            if (std::abs(det) < 1e-18) continue;
-            const glm::dvec3 s = origin - p[0], q = glm::cross(s, e1);
-            const double u = glm::dot(s, h) / det, v = glm::dot(direction, q) / det;
-            if (u >= 0 && v >= 0 && u + v <= 1 && glm::dot(e2, q) / det > 1e-6) return true;
-        }
-        return false;
+    struct Wall {
+        std::array<glm::dvec3, 3> corner;
+        glm::dvec3 centre;
+        double radius;
     };
-    ball.colors.assign(ball.positions.size(), glm::dvec3(0));
+    constexpr double kReach = 1.7;  // radii of the ball: lids and socket, not the far side of the nose
+    std::vector<Wall> near;
+    for (std::size_t t = 0; t + 2 < walls.indices.size(); t += 3) {
+        Wall wall{};
+        for (int k = 0; k < 3; ++k) wall.corner[k] = walls.positions[walls.indices[t + k]];
+        wall.centre = (wall.corner[0] + wall.corner[1] + wall.corner[2]) / 3.0;
+        for (const glm::dvec3& p : wall.corner)
+            wall.radius = std::max(wall.radius, glm::distance(p, wall.centre));
+        if (glm::distance(wall.centre, eye.centre) < kReach * eye.radius) near.push_back(wall);
+    }
+    const auto hits = [](const Wall& wall, const glm::dvec3& origin, const glm::dvec3& direction) {
+        // Möller & Trumbore 1997
+        const glm::dvec3 e1 = wall.corner[1] - wall.corner[0], e2 = wall.corner[2] - wall.corner[0];
+        const glm::dvec3 h = glm::cross(direction, e2), s = origin - wall.corner[0], q = glm::cross(s, e1);
+        const double det = glm::dot(e1, h);
+        if (std::abs(det) < 1e-18) return false;
+        const double u = glm::dot(s, h) / det, v = glm::dot(direction, q) / det;
+        return u >= 0 && v >= 0 && u + v <= 1 && glm::dot(e2, q) / det > 1e-6;
+    };
     constexpr int kDirections = 64;
+    ball.colors.assign(ball.positions.size(), glm::dvec3(0));
     parallelFor(ball.positions.size(), [&](std::size_t i) {
-        const glm::dvec3 n = ball.normals[i];
+        const glm::dvec3 n = ball.normals[i], origin = ball.positions[i] + 1e-4 * n;
         if (glm::dot(n, eye.gaze) < -0.2) return;  // the back of the ball is never seen
         const glm::dvec3 t =
             glm::normalize(glm::cross(n, std::abs(n.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
         const glm::dvec3 b = glm::cross(n, t);
-        int open = 0;
+        std::array<glm::dvec3, kDirections> direction;
+        std::array<bool, kDirections> open;
+        open.fill(true);
         for (int k = 0; k < kDirections; ++k) {  // cosine-distributed, a golden-angle spiral
-            const double u = (k + 0.5) / kDirections, phi = k * 2.399963229728653;
-            const double r = std::sqrt(u), z = std::sqrt(1 - u);
-            const glm::dvec3 d = r * std::cos(phi) * t + r * std::sin(phi) * b + z * n;
-            if (!hits(ball.positions[i] + 1e-4 * n, d)) ++open;
+            const double u = (k + 0.5) / kDirections, phi = k * 2.399963229728653, r = std::sqrt(u);
+            direction[k] = r * std::cos(phi) * t + r * std::sin(phi) * b + std::sqrt(1 - u) * n;
         }
-        ball.colors[i] = glm::dvec3(double(open) / kDirections);
+        for (const Wall& wall : near) {
+            const glm::dvec3 to = wall.centre - origin;
+            const double distance2 = glm::dot(to, to), radius2 = wall.radius * wall.radius;
+            if (glm::dot(to, n) < -wall.radius) continue;
+            // Directions outside of the cone about the wall's bounding sphere miss it.
+            const double along = distance2 > radius2 ? std::sqrt(distance2 - radius2) : -1;
+            for (int k = 0; k < kDirections; ++k)
+                if (open[k] && glm::dot(to, direction[k]) >= along && hits(wall, origin, direction[k]))
+                    open[k] = false;
+        }
+        ball.colors[i] = glm::dvec3(double(std::count(open.begin(), open.end(), true)) / kDirections);
     });
 }
 

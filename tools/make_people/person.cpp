@@ -226,7 +226,7 @@ int addShirt(GltfFile& file, const fs::path& folder, const PersonRecipe& person,
     const glm::dvec3& c = person.shirt.color;
     material["pbrMetallicRoughness"] = {
         {"baseColorFactor", {c.x, c.y, c.z, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.85}};
-    material["normalTexture"] = {{"index", file.addTexture(image, true)}};
+    material["normalTexture"] = {{"index", file.addTexture(image, true)}, {"scale", 0.4}};
     material["doubleSided"] = true;
     return addMeshNode(file, person.name + " shirt", mesh, file.addMaterial(material));
 }
