@@ -23,7 +23,6 @@ layout(binding = 6, scalar) readonly buffer DrawBuffer { DrawInfo draws[]; };
 #endif
 layout(binding = 3, scalar) readonly buffer LightViewBuffer { LightView lightViews[]; };
 layout(binding = 4) uniform sampler2DArrayShadow lightDepthCompare;
-layout(binding = 5) uniform sampler2DArray lightDepth;
 
 layout(push_constant, scalar) uniform Push {
     uint receiverGroup;  // whose views these are
@@ -31,10 +30,12 @@ layout(push_constant, scalar) uniform Push {
     uint count;          // directions in the batch
     uint batch;          // which 32 bits
     uint firstVertex, vertexCount, firstProbe, probeCount;
+    uvec2 origin, size;  // of the probes of one chart
     float clearance;  // metres: how far a coarser mesh may stand above the surface
 } push;
 
 #include "lib/environment_probe.glsl"
+#define LIGHT_MAPS_COMPARE_ONLY
 #include "lib/light_maps.glsl"
 
 uint visibilityBits(vec3 p, vec3 n) {
@@ -45,9 +46,7 @@ uint visibilityBits(vec3 p, vec3 n) {
         vec3 away = vec3(view.worldToClip[0].z, view.worldToClip[1].z, view.worldToClip[2].z);
         vec3 l = -normalize(away);
         if (dot(n, l) <= -0.2) continue;  // normal maps tilt by no more than this
-        // At grazing angles the surface itself decides, not its map.
-        LightMapPoint at = locateInLightMap(view, p, n, l, push.clearance);
-        if (!at.inside || compareLightMap(view.layer, at, vec2(0.0)) > 0.5) bits |= 1u << i;
+        if (lightMapReaches(view, p, n, l, push.clearance)) bits |= 1u << i;
     }
     return bits;
 }
@@ -60,7 +59,8 @@ void main() {
     visibility[push.batch * push.probeCount + push.firstProbe + i] =
         visibilityBits(positions[vertex], attributes[vertex].normal);
 #else
-    ivec2 probe = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(gl_GlobalInvocationID.xy, push.size))) return;
+    ivec2 probe = ivec2(push.origin + gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(probe, imageSize(visibility).xy))) return;
     ivec2 texel = probeTexel(probe);
     if (texel.x < 0) return;

@@ -170,11 +170,10 @@ void shadeSkin(inout Shade shade, Material material, vec2 atlasTexel, float isla
 #endif
 
 #ifndef SKIN
-void shadeMetallicRoughness(inout Shade shade, Material material, DrawInfo draw, vec3 p, vec3 smoothNormal, vec3 n,
-                            vec3 view, float metallic, float roughness, float occlusion, vec3 share) {
+void shadeMetallicRoughness(inout Shade shade, DrawInfo draw, vec3 p, vec3 smoothNormal, vec3 n,
+                            vec3 view, float metallic, float alpha, float occlusion, vec3 share) {
     vec3 f0 = mix(vec3(0.04), shade.albedo, metallic);
     vec3 matte = shade.albedo * (1.0 - metallic);
-    float alpha = max(roughness * roughness, 1e-3);
     float mu = max(dot(n, view), 1e-4);
     for (uint i = 0u; i < push.lightCount; ++i) {
         LightSampleData light = lights[i];
@@ -228,10 +227,13 @@ Shade shadeAt(uint triangleIndex, vec2 pixel) {
     vec4 base = material.baseColor * interpolate(w, va.color, vb.color, vc.color);
     vec3 n = smoothNormal, emitted = material.emissive;
     float metallic = material.metallic, roughness = material.roughness, occlusion = 1.0;
-#ifdef TEXTURED
+#if defined(TEXTURED) || !defined(SKIN)
     Ray rx = cameraRay(pixel + vec2(push.step, 0.0)), ry = cameraRay(pixel + vec2(0.0, push.step));
-    SurfaceUv uv = surfaceUv(w, barycentricOnRay(triangle, rx.origin, rx.direction),
-                             barycentricOnRay(triangle, ry.origin, ry.direction), va, vb, vc);
+    vec3 wx = barycentricOnRay(triangle, rx.origin, rx.direction);
+    vec3 wy = barycentricOnRay(triangle, ry.origin, ry.direction);
+#endif
+#ifdef TEXTURED
+    SurfaceUv uv = surfaceUv(w, wx, wy, va, vb, vc);
     if ((TEXTURE_SLOTS & SLOT_BASE_COLOR) != 0u && material.baseColorTexture.group >= 0) base *= sampleMaterial(material.baseColorTexture, uv);
 #ifndef SKIN
     if ((TEXTURE_SLOTS & SLOT_METALLIC_ROUGHNESS) != 0u && material.metallicRoughnessTexture.group >= 0) {
@@ -278,8 +280,15 @@ Shade shadeAt(uint triangleIndex, vec2 pixel) {
     vec3 open = interpolate(w, probes[probe.x + 1u].xyz, probes[probe.y + 1u].xyz, probes[probe.z + 1u].xyz);
     setSky(back ? smoothNormal : open, smoothNormal);
 #endif
-    shadeMetallicRoughness(shade, material, draw, p, smoothNormal, n, view, clamp(metallic, 0.0, 1.0),
-                           clamp(roughness, 0.0, 1.0), occlusion, share);
+    // A lobe is at least as wide as the normals within the pixel: without this a silhouette sparkles (Tokuyoshi &
+    // Kaplanyan 2019; their bound of 0.18 on what is added to alpha²).
+    vec3 nx = interpolate(wx - w, va.normal, vb.normal, vc.normal);
+    vec3 ny = interpolate(wy - w, va.normal, vb.normal, vc.normal);
+    float spread = min(0.5 * (dot(nx, nx) + dot(ny, ny)), 0.18);
+    float alpha = clamp(roughness, 0.0, 1.0);
+    alpha = sqrt(clamp(alpha * alpha * alpha * alpha + spread, 0.0, 1.0));
+    shadeMetallicRoughness(shade, draw, p, smoothNormal, n, view, clamp(metallic, 0.0, 1.0), max(alpha, 1e-3),
+                           occlusion, share);
 #endif
     shade.diffuse += emitted;
     return shade;

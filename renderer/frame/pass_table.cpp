@@ -89,6 +89,7 @@ void environmentVisibilityRow(FrameContext& frame) {
     for (const GeometryDraw& draw : frame.geometry.draws) vertexCounts.push_back(draw.vertexCount);
     const VisibilityInput input{.scene = &frame.scene.buffers,
                                 .surface = frame.surface.size > 0 ? &frame.surface : nullptr,
+                                .charts = frame.scene.charts,
                                 .draws = frame.geometry.drawInfos,
                                 .vertexCounts = vertexCounts,
                                 .groups = frame.groups,

@@ -24,7 +24,7 @@ Needs computeNeeds(const NeedsInput& input) {
     const bool skin = input.skinDraws > 0;
     set(Need::always, true, "every picture");
     set(Need::skin, skin && lit,
-        !skin ? "nothing is skin" : !lit ? "no light" : count(input.skinDraws, "mesh") + " of skin");
+        !skin ? "nothing is skin" : !lit ? "no light" : count(input.skinDraws, "piece") + " of skin");
     set(Need::litSkin, skin && lit,
         !skin ? "nothing is skin" : !lit ? "no light reaches the skin" : "skin is lit");
     set(Need::lights, lights, lights ? count(input.lightSamples, "light sample") : "no lights");

@@ -7,6 +7,7 @@
 #include "renderer/frame/textures.h"
 #include "renderer/gpu/device.h"
 #include "renderer/skin/specular.h"
+#include "renderer/skin/specular_lobes.h"
 
 namespace cutis {
 namespace {
@@ -78,7 +79,7 @@ std::uint32_t flagsOf(const Material& material) {
     return flags;
 }
 
-// The materials, and the directional-albedo table with a row for each distinct roughness of skin.
+// The materials, and the tables of the specular layer for each distinct roughness of skin.
 void uploadMaterials(gpu::Device& device, gpu::Commands& commands, const Scene& scene, const Geometry& geometry,
                      const TextureArrays& arrays, UploadedScene& uploaded) {
     std::vector<bool> drawnAsSkin(scene.materials.size(), false);
@@ -123,7 +124,11 @@ void uploadMaterials(gpu::Device& device, gpu::Commands& commands, const Scene& 
     }
     uploaded.buffers.materials = uploadBuffer(device, commands, "materials", materials);
     std::vector<float> table;
-    for (const std::vector<float>& row : rows) table.insert(table.end(), row.begin(), row.end());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::vector<float> lobes = skin::specularLobeTable(roughness[i]);
+        table.insert(table.end(), rows[i].begin(), rows[i].end());
+        table.insert(table.end(), lobes.begin(), lobes.end());
+    }
     uploaded.buffers.albedoTable = uploadBuffer(device, commands, "directional albedo", table);
 }
 
@@ -141,6 +146,7 @@ void uploadCharts(gpu::Device& device, gpu::Commands& commands, const Scene& sce
         range.firstGaussian = static_cast<std::uint32_t>(terms.size());
         range.profile = profile;
         range.mmPerUnit = static_cast<float>(material.mmPerUnit);
+        range.receiverGroup = static_cast<std::uint32_t>(chart.character);
         for (const skin::Gaussian& g : profile.gaussians) {
             terms.push_back({glm::vec3(g.weight), static_cast<float>(g.variance)});
         }

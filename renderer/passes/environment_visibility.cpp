@@ -14,6 +14,7 @@ constexpr std::uint32_t kBatch = 32;  // directions at a time: the bits of a wor
 struct BitsPush {
     std::uint32_t receiverGroup, firstView, count, batch;
     std::uint32_t firstVertex, vertexCount, firstProbe, probeCount;
+    glm::uvec2 origin, size;  // probes
     float clearance;
 };
 
@@ -69,18 +70,23 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
             recordLightMaps(device, commands, *input.scene,
                             {.depth = &depth, .viewBuffer = &viewBuffer, .views = views, .firstView = firstView,
                              .viewCount = count, .proxies = true});
-            BitsPush push{g, firstView, count, word, 0, 0, 0, input.probeCount, input.clearance};
+            BitsPush push{g, firstView, count, word, 0, 0, 0, input.probeCount, {}, {}, input.clearance};
             if (input.surface) {
                 const gpu::Program& program = device.program("environment_visibility.comp");
-                commands.dispatch(program,
-                                  {{"position", input.surface->position},
-                                   {"normal", input.surface->normal},
-                                   {"visibility", result.visibility},
-                                   {"DrawBuffer", input.scene->draws},
-                                   {"LightViewBuffer", viewBuffer},
-                                   {"lightDepthCompare", depthComparison(device, depth)},
-                                   {"lightDepth", nearest(device, depth)}},
-                                  push, gpu::groupsFor(program, result.visibility.width(), result.visibility.height()));
+                for (const ChartRange& chart : input.charts) {
+                    if (chart.receiverGroup != g) continue;
+                    // Chart borders spread a texel outwards, and a probe covers two.
+                    push.origin = (glm::uvec2(chart.rect) - 2u) / 2u;
+                    push.size = glm::uvec2(chart.rect.z, chart.rect.w) / 2u + 3u;
+                    commands.dispatch(program,
+                                      {{"position", input.surface->position},
+                                       {"normal", input.surface->normal},
+                                       {"visibility", result.visibility},
+                                       {"DrawBuffer", input.scene->draws},
+                                       {"LightViewBuffer", viewBuffer},
+                                       {"lightDepthCompare", depthComparison(device, depth)}},
+                                      push, gpu::groupsFor(program, push.size.x, push.size.y));
+                }
             }
             const gpu::Program& program = device.program("environment_visibility.comp+VERTICES");
             forEachProbeDraw(input, [&](std::size_t d) {
@@ -93,8 +99,7 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
                                    {"AttributeBuffer", input.scene->attributes},
                                    {"VisibilityBuffer", result.vertexVisibility},
                                    {"LightViewBuffer", viewBuffer},
-                                   {"lightDepthCompare", depthComparison(device, depth)},
-                                   {"lightDepth", nearest(device, depth)}},
+                                   {"lightDepthCompare", depthComparison(device, depth)}},
                                   push, gpu::groupsFor(program, push.vertexCount));
             });
         }

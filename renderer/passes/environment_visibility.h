@@ -14,6 +14,7 @@ namespace cutis {
 struct VisibilityInput {
     const SceneBuffers* scene;
     const SurfaceImages* surface = nullptr;      // nullptr: no skin
+    std::span<const ChartRange> charts;          // of the skin
     std::span<const shared::DrawInfo> draws;     // as uploaded
     std::span<const std::uint32_t> vertexCounts;  // of each draw
     std::span<const Bounds> groups;              // receivers, world

@@ -47,6 +47,7 @@ struct ChartRange {
     std::uint32_t firstGaussian = 0;
     skin::Profile profile;  // in mm², scaled and reduced as the frame uses it
     float mmPerUnit = 1000;
+    std::uint32_t receiverGroup = 0;
 };
 
 // Filled by recordSurface.

@@ -74,29 +74,41 @@ vec3 environmentSpecularGgx(vec3 n, vec3 v, float alpha, vec3 f0) {
 }
 
 #ifdef ALBEDO_TABLE
+// Light through one lobe of the skin's table, `direction` in the columns of `frame`.
+vec3 environmentLobe(mat3 frame, vec3 direction, float level) {
+    vec3 l = frame * direction;
+    return environmentVisibility(l) * environmentRadianceAt(l, level);
+}
+
 // Reflected radiance of skin, ∫ L f_s (N·ω) dω: `m` rms slope, `s` specular scale, `row` of the table of roughness m.
+// The lobe f_s (N·ω) is the sum of smaller ones that renderer/skin/specular_lobes.h fits, between two rows of μ. Their
+// weights sum to ρ_dt, so a uniform environment is reflected exactly.
 vec3 environmentSpecularSkin(vec3 n, vec3 v, float m, float s, uint row) {
-    const int kTaps = 32;
-    mat3 frame = frameAlong(n, v);
-    float mu = max(dot(n, v), 1e-3);
+    float mu = clamp(dot(n, v), 1e-3, 1.0), sine = sqrt(1.0 - mu * mu);
+    mat3 surface = frameAlong(n, v);
+    mat3 frame = mat3(surface[0] * mu + n * sine, surface[1], n * mu - surface[0] * sine);  // z: mirror direction
+    float x = sqrt(mu) * float(LOBE_ROWS - 1);
+    uint j = min(uint(x), uint(LOBE_ROWS - 2));
+    float f = x - float(j);
+    uint at = row * uint(SKIN_TABLE_STRIDE) + uint(ALBEDO_ROW_SIZE) + j * uint(LOBE_ROW_SIZE);
     vec3 sum = vec3(0.0);
     float total = 0.0;
-    for (int k = 0; k < kTaps; ++k) {
-        vec2 u = spiralPoint(k, kTaps);
-        float tan2 = -m * m * log(1.0 - u.x), cosine = inversesqrt(1.0 + tan2), sine = sqrt(tan2) * cosine;
-        vec3 h = frame * vec3(sine * cos(u.y), sine * sin(u.y), cosine);
-        float vh = dot(v, h);
-        float weight = 2.0 - mu / (vh * cosine);  // the estimator of renderer/skin/specular.cpp
-        if (vh <= 0.0 || weight <= 0.0) continue;
-        weight *= schlickFresnel(vh, kSkinF0);
-        vec3 l = 2.0 * vh * h - v;
-        float pdf = (1.0 - u.x) / (3.14159265358979 * m * m * cosine * cosine * cosine) / (4.0 * vh);
-        float sigma = min(sqrt(1.0 / (float(kTaps) * pdf * 4.0)), 0.5);
-        sum += (weight * environmentVisibility(l)) * environmentRadianceAt(l, environmentLevel(sigma));
-        total += weight;
+    for (int k = 0; k < LOBES_IN_PLANE + LOBE_PAIRS; ++k) {
+        float lobe[LOBE_FLOATS];
+        for (int i = 0; i < LOBE_FLOATS; ++i) {
+            lobe[i] = mix(ALBEDO_TABLE(at), ALBEDO_TABLE(at + uint(LOBE_ROW_SIZE)), f);
+            ++at;
+        }
+        vec3 direction = normalize(vec3(lobe[0], lobe[1], lobe[2]));
+        float level = environmentLevel(lobe[3]);
+        vec3 light = environmentLobe(frame, direction, level);
+        if (k >= LOBES_IN_PLANE) {
+            light = 0.5 * (light + environmentLobe(frame, vec3(direction.x, -direction.y, direction.z), level));
+        }
+        sum += lobe[4] * light;
+        total += lobe[4];
     }
-    float albedo = directionalAlbedo(mu, row);
-    return total > 0.0 ? sum * (min(s * albedo, 1.0) / total) : vec3(0.0);
+    return sum * (min(s * directionalAlbedo(mu, row), 1.0) / total);
 }
 #endif
 

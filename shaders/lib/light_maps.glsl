@@ -1,5 +1,5 @@
 // Visibility of a light sample from its light maps. The includer declares
-//   LightView lightViews[], sampler2DArrayShadow lightDepthCompare, sampler2DArray lightDepth.
+//   sampler2DArrayShadow lightDepthCompare and, unless LIGHT_MAPS_COMPARE_ONLY, sampler2DArray lightDepth.
 #ifndef CUTIS_LIGHT_MAPS_GLSL
 #define CUTIS_LIGHT_MAPS_GLSL
 
@@ -21,9 +21,8 @@ vec3 projectToLightMap(LightView view, vec3 p) {
     return clip.w > 0.0 ? vec3(clip.xy / clip.w * 0.5 + 0.5, clip.z / clip.w) : vec3(-1.0);
 }
 
-// p: point to light; n: its unit normal, towards the light's side; l: unit direction to the light; clearance: how far, in
-// metres, what is drawn in the map may stand above the true surface.
-LightMapPoint locateInLightMap(LightView view, vec3 p, vec3 n, vec3 l, float clearance) {
+// p: point to light; n: its unit normal, towards the light's side; l: unit direction to the light.
+LightMapPoint locateInLightMap(LightView view, vec3 p, vec3 n, vec3 l) {
     LightMapPoint at;
     vec3 here = projectToLightMap(view, p);
     at.distance = lightMapDistance(view, here.z);
@@ -31,7 +30,7 @@ LightMapPoint locateInLightMap(LightView view, vec3 p, vec3 n, vec3 l, float cle
     // Moving the receiver along its normal by the height that a slanted surface gains over one texel removes acne
     // without detaching shadows where light is perpendicular.
     float cosine = clamp(dot(n, l), 0.0, 1.0);
-    vec3 lifted = p + n * (clearance + at.texel * (0.25 + 1.5 * sqrt(1.0 - cosine * cosine)));
+    vec3 lifted = p + n * (at.texel * (0.25 + 1.5 * sqrt(1.0 - cosine * cosine)));
     at.uvDepth = projectToLightMap(view, lifted);
     at.inside = all(greaterThanEqual(at.uvDepth.xy, vec2(0.0))) && all(lessThanEqual(at.uvDepth.xy, vec2(1.0))) &&
                 at.uvDepth.z > 0.0;
@@ -57,18 +56,28 @@ float compareLightMap(uint layer, LightMapPoint at, vec2 offset) {
     return texture(lightDepthCompare, vec4(at.uvDepth.xy + offset, float(layer), clamp(depth, 0.0, 1.0)));
 }
 
+// Whether light of an orthographic view reaches p: one comparison, for many directions that are averaged. clearance: how
+// far, in metres, what is drawn in the map may stand above the true surface.
+bool lightMapReaches(LightView view, vec3 p, vec3 n, vec3 l, float clearance) {
+    float cosine = clamp(dot(n, l), 0.0, 1.0);
+    vec3 lifted = p + n * (clearance + view.texelSize * (0.25 + 1.5 * sqrt(1.0 - cosine * cosine)));
+    vec3 at = (view.worldToClip * vec4(lifted, 1.0)).xyz;
+    return texture(lightDepthCompare, vec4(at.xy * 0.5 + 0.5, float(view.layer), clamp(at.z, 0.0, 1.0))) > 0.5;
+}
+
 // i-th of n points that fill the unit disc evenly (Vogel 1979).
 vec2 vogelDisc(int i, int n) {
     float r = sqrt((float(i) + 0.5) / float(n)), phi = float(i) * 2.399963229728653;
     return r * vec2(cos(phi), sin(phi));
 }
 
+#ifndef LIGHT_MAPS_COMPARE_ONLY
 const float kWidestFilter = 48.0;  // texels
 
 // The lit share of a light sample at p, in [0,1]. `extent` is the radius of the source in metres at `lightDistance`
 // metres (directional: radians and 1): the blocker's distance makes the penumbra (Fernando 2005).
 float lightMapVisibility(LightView view, vec3 p, vec3 n, vec3 l, float extent, float lightDistance, bool directional) {
-    LightMapPoint at = locateInLightMap(view, p, n, l, 0.0);
+    LightMapPoint at = locateInLightMap(view, p, n, l);
     if (!at.inside) return 1.0;
     vec2 texel = 1.0 / vec2(textureSize(lightDepth, 0).xy);
     float filterTexels = 0.75;  // radius; at the least the tent of three texels that hides the map's own steps
@@ -96,5 +105,7 @@ float lightMapVisibility(LightView view, vec3 p, vec3 n, vec3 l, float extent, f
     for (int i = 0; i < kTaps; ++i) lit += compareLightMap(view.layer, at, vogelDisc(i, kTaps) * filterTexels * texel);
     return lit / float(kTaps);
 }
+
+#endif
 
 #endif

@@ -1,7 +1,7 @@
 // Specular reflection of skin (DESIGN §1.2), the twin of renderer/skin/specular.h, where the equations are derived.
 //
-// For the table of directional albedo, declare a storage buffer of floats and, before including this file, how to read
-// value i of it:  #define ALBEDO_TABLE(i) albedoTable[i]
+// For the tables of shared/albedo_table.h, declare a storage buffer of floats, SKIN_TABLE_STRIDE for each roughness, and,
+// before including this file, how to read value i of it:  #define ALBEDO_TABLE(i) albedoTable[i]
 #ifndef CUTIS_SKIN_SPECULAR_GLSL
 #define CUTIS_SKIN_SPECULAR_GLSL
 
@@ -50,7 +50,7 @@ float clampedSpecularScale(float s, float albedo) {
 float directionalAlbedo(float mu, uint row) {
     float x = sqrt(clamp(mu, 0.0, 1.0)) * float(ALBEDO_ROW_SIZE - 1);
     uint i = min(uint(x), uint(ALBEDO_ROW_SIZE - 2));
-    uint at = row * uint(ALBEDO_ROW_SIZE) + i;
+    uint at = row * uint(SKIN_TABLE_STRIDE) + i;
     return mix(ALBEDO_TABLE(at), ALBEDO_TABLE(at + 1u), x - float(i));
 }
 
