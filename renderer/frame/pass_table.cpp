@@ -136,14 +136,16 @@ void compositeRow(FrameContext& frame) {
     const glm::ivec2 picture(frame.settings->width, frame.settings->height);
     const int step = tileSize(frame.scene.buffers, kSupersampling);
     if (frame.target.aovs) frame.commands->clear(frame.target.aovs);
+    const TileBuffers buffers = makeTileBuffers(*frame.device, frame.scene.buffers,
+                                                glm::min(glm::ivec2(step), picture), kSupersampling);
     for (int y = 0; y < picture.y; y += step) {
         for (int x = 0; x < picture.x; x += step) {
             const glm::ivec2 origin(x, y);
             const ViewTile tile{origin, glm::min(glm::ivec2(step), picture - origin), picture, kSupersampling};
-            const ViewImages view = recordView(*frame.device, *frame.commands, frame.scene.buffers, frame.camera, tile);
+            recordView(*frame.device, *frame.commands, frame.scene.buffers, frame.camera, tile, buffers);
             recordComposite(*frame.device, *frame.commands,
                             {.scene = &frame.scene.buffers,
-                             .view = &view,
+                             .buffers = &buffers,
                              .skin = frame.needs[Need::litSkin] ? &frame.skin : nullptr,
                              .lights = &frame.lights,
                              .environment = environment ? &frame.environmentMaps : nullptr,

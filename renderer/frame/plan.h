@@ -27,7 +27,6 @@ struct NeedsInput {
     int skinDraws = 0, translucentSkinMaterials = 0;
     int lightSamples = 0, shadowedSamples = 0;
     bool environment = false;
-    bool prune = true;
 };
 Needs computeNeeds(const NeedsInput& input);
 

@@ -180,9 +180,14 @@ RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const 
     frame.lightSamples = sampleLights(input.rig);
     EnvironmentSplit split;
     prepareEnvironment(frame, input, split);
+    // Without pruning, what is missing is there and black, so that every pass runs and nothing changes.
+    const Environment black{"black", 2, 1, std::vector<glm::vec3>(2, glm::vec3(0))};
+    if (!settings.prune) {
+        if (!frame.environment) frame.environment = &black;
+        if (frame.lightSamples.empty()) frame.lightSamples.push_back({.light = 0, .directional = true});
+    }
 
     NeedsInput needs;
-    needs.prune = settings.prune;
     needs.environment = frame.environment != nullptr;
     needs.lightSamples = static_cast<int>(frame.lightSamples.size());
     for (const LightSample& sample : frame.lightSamples) needs.shadowedSamples += sample.shadow;

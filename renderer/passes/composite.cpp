@@ -88,42 +88,64 @@ void drawRange(gpu::Device& device, gpu::Commands& commands, const SceneBuffers&
 
 }  // namespace
 
-ViewImages recordView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
-                      const shared::ViewCamera& camera, const ViewTile& tile) {
-    ViewImages view;
-    view.layers = layerCount(scene);
+TileBuffers makeTileBuffers(gpu::Device& device, const SceneBuffers& scene, const glm::ivec2& size, int supersampling) {
+    TileBuffers buffers;
+    buffers.layers = layerCount(scene);
+    const auto width = static_cast<std::uint32_t>(size.x * supersampling);
+    const auto height = static_cast<std::uint32_t>(size.y * supersampling);
+    const auto image = [&](const char* name, VkFormat format, std::uint32_t w, std::uint32_t h, int layers = 1) {
+        return gpu::Image(device, {.name = name, .format = format, .width = w, .height = h,
+                                   .layers = static_cast<std::uint32_t>(layers)});
+    };
+    buffers.triangles = image("view triangles", VK_FORMAT_R32_UINT, width, height, buffers.layers);
+    buffers.depth = image("view depth", VK_FORMAT_D32_SFLOAT, width, height);
+    if (buffers.layers > 1) {
+        for (gpu::Image& peeled : buffers.peeledDepth) {
+            peeled = image("peeled depth", VK_FORMAT_D32_SFLOAT, width, height);
+        }
+    }
+    const std::uint64_t capacity = std::uint64_t(width) * height * buffers.layers;
+    const auto buffer = [&](const char* name, std::uint64_t bytes, bool indirect = false) {
+        return gpu::Buffer(device, {.name = name, .bytes = bytes, .indirect = indirect});
+    };
+    buffers.camera = buffer("camera", sizeof(shared::ViewCamera));
+    buffers.points = buffer("shading points", capacity * sizeof(shared::ShadingPoint));
+    buffers.skinList = buffer("skin points", capacity * 4);
+    buffers.otherList = buffer("other points", capacity * 4);
+    buffers.counts = buffer("point counts", 12);
+    buffers.groups = buffer("point groups", 24, true);
+    buffers.shaded = buffer("shaded points", capacity * sizeof(shared::ShadedPoint));
+    buffers.pixels = image("pixel points", VK_FORMAT_R32G32_UINT, size.x, size.y);
+    return buffers;
+}
+
+void recordView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                const shared::ViewCamera& camera, const ViewTile& tile, const TileBuffers& buffers) {
+    commands.upload(buffers.camera, std::vector{cameraOfTile(camera, tile)});
     const auto width = static_cast<std::uint32_t>(tile.size.x * tile.supersampling);
     const auto height = static_cast<std::uint32_t>(tile.size.y * tile.supersampling);
-    view.triangles = gpu::Image(device, {.name = "view triangles", .format = VK_FORMAT_R32_UINT, .width = width,
-                                         .height = height, .layers = static_cast<std::uint32_t>(view.layers)});
-    view.camera = gpu::Buffer(device, {.name = "camera", .bytes = sizeof(shared::ViewCamera)});
-    commands.upload(view.camera, std::vector{cameraOfTile(camera, tile)});
-    const auto depthImage = [&](const char* name) {
-        return gpu::Image(device, {.name = name, .format = VK_FORMAT_D32_SFLOAT, .width = width, .height = height});
-    };
-
-    const gpu::Image opaque = depthImage("view depth");
-    commands.beginRendering({.colors = {{view.triangles.layer(view.layers - 1), gpu::ClearValue::integers(0)}},
-                             .depth = gpu::Attachment{opaque, gpu::ClearValue::depth(1)}});
+    commands.beginRendering(
+        {.colors = {{buffers.triangles.layer(buffers.layers - 1), gpu::ClearValue::integers(0)}},
+         .depth = gpu::Attachment{buffers.depth, gpu::ClearValue::depth(1)}, .width = width, .height = height});
     for (const DrawRange& range : scene.ranges) {
-        if (!range.blended) drawRange(device, commands, scene, view.camera, range, nullptr);
+        if (!range.blended) drawRange(device, commands, scene, buffers.camera, range, nullptr);
     }
     commands.endRendering();
-    if (view.layers == 1) return view;
+    if (buffers.layers == 1) return;
 
     // Depth peeling (Everitt 2001): each layer is the nearest surface behind the one before.
-    gpu::Image depths[2] = {depthImage("peeled depth 0"), depthImage("peeled depth 1")};
-    commands.clear(depths[1], gpu::ClearValue::depth(0));
-    for (int layer = 0; layer < kPeeledLayers; ++layer) {
-        const PeelDepths peel{&opaque, &depths[(layer + 1) % 2]};
-        commands.beginRendering({.colors = {{view.triangles.layer(layer), gpu::ClearValue::integers(0)}},
-                                 .depth = gpu::Attachment{depths[layer % 2], gpu::ClearValue::depth(1)}});
+    commands.clear(buffers.peeledDepth[1], gpu::ClearValue::depth(0));
+    for (int layer = 0; layer < buffers.layers - 1; ++layer) {
+        const PeelDepths peel{&buffers.depth, &buffers.peeledDepth[(layer + 1) % 2]};
+        commands.beginRendering(
+            {.colors = {{buffers.triangles.layer(layer), gpu::ClearValue::integers(0)}},
+             .depth = gpu::Attachment{buffers.peeledDepth[layer % 2], gpu::ClearValue::depth(1)},
+             .width = width, .height = height});
         for (const DrawRange& range : scene.ranges) {
-            if (range.blended) drawRange(device, commands, scene, view.camera, range, &peel);
+            if (range.blended) drawRange(device, commands, scene, buffers.camera, range, &peel);
         }
         commands.endRendering();
     }
-    return view;
 }
 
 int tileSize(const SceneBuffers& scene, int supersampling) {
@@ -134,34 +156,13 @@ int tileSize(const SceneBuffers& scene, int supersampling) {
 
 namespace {
 
-// Buffers between the three steps of the composite.
-struct PointBuffers {
-    gpu::Buffer points, skinList, otherList, counts, groups, shaded;
-    gpu::Image pixels;
-};
-
-PointBuffers collectPoints(gpu::Device& device, gpu::Commands& commands, const CompositeInput& input,
-                           const ViewTile& tile) {
+void collectPoints(gpu::Device& device, gpu::Commands& commands, const CompositeInput& input, const ViewTile& tile) {
     const SceneBuffers& scene = *input.scene;
-    const std::uint64_t capacity = std::uint64_t(tile.size.x) * tile.size.y * tile.supersampling *
-                                   tile.supersampling * input.view->layers;
-    const auto buffer = [&](const char* name, std::uint64_t bytes, bool indirect = false) {
-        return gpu::Buffer(device, {.name = name, .bytes = bytes, .indirect = indirect});
-    };
-    PointBuffers buffers;
-    buffers.points = buffer("shading points", capacity * sizeof(shared::ShadingPoint));
-    buffers.skinList = buffer("skin points", capacity * 4);
-    buffers.otherList = buffer("other points", capacity * 4);
-    buffers.counts = buffer("point counts", 12);
-    buffers.groups = buffer("point groups", 24, true);
-    buffers.shaded = buffer("shaded points", capacity * sizeof(shared::ShadedPoint));
-    buffers.pixels = gpu::Image(device, {.name = "pixel points", .format = VK_FORMAT_R32G32_UINT,
-                                         .width = static_cast<std::uint32_t>(tile.size.x),
-                                         .height = static_cast<std::uint32_t>(tile.size.y)});
+    const TileBuffers& buffers = *input.buffers;
     commands.fill(buffers.counts, 0);
     const gpu::Program& collect = device.program("collect.comp");
     commands.dispatch(collect,
-                      {{"triangles", input.view->triangles},
+                      {{"triangles", buffers.triangles},
                        {"IndexBuffer", scene.indices},
                        {"PositionBuffer", scene.positions},
                        {"TriangleDrawBuffer", scene.triangleDraws},
@@ -171,16 +172,16 @@ PointBuffers collectPoints(gpu::Device& device, gpu::Commands& commands, const C
                        {"OtherListBuffer", buffers.otherList},
                        {"CountBuffer", buffers.counts},
                        {"pixels", buffers.pixels}},
-                      CollectPush{tile.size, tile.supersampling, input.view->layers},
+                      CollectPush{tile.size, tile.supersampling, buffers.layers},
                       gpu::groupsFor(collect, tile.size.x, tile.size.y));
     commands.dispatch(device.program("collect_groups.comp"),
                       {{"CountBuffer", buffers.counts}, {"GroupBuffer", buffers.groups}}, {}, {});
-    return buffers;
 }
 
 void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeInput& input, const ViewTile& tile,
-                 const PictureTarget& target, const PointBuffers& buffers, bool skin) {
+                 const PictureTarget& target, bool skin) {
     const SceneBuffers& scene = *input.scene;
+    const TileBuffers& buffers = *input.buffers;
     const bool aovs = static_cast<bool>(target.aovs);
     std::string shader = "shade.comp";
     gpu::Bindings bindings{{"PointBuffer", buffers.points},
@@ -193,7 +194,7 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
                            {"TriangleDrawBuffer", scene.triangleDraws},
                            {"DrawBuffer", scene.draws},
                            {"MaterialBuffer", scene.materials},
-                           {"CameraBuffer", input.view->camera},
+                           {"CameraBuffer", buffers.camera},
                            {"LightBuffer", input.lights->samples}};
     if (skin) {
         shader += "+SKIN";
@@ -245,11 +246,12 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
 
 void recordComposite(gpu::Device& device, gpu::Commands& commands, const CompositeInput& input, const ViewTile& tile,
                      const PictureTarget& target) {
-    const PointBuffers buffers = collectPoints(device, commands, input, tile);
+    const TileBuffers& buffers = *input.buffers;
+    collectPoints(device, commands, input, tile);
     bool skin = false, other = false;
     for (const DrawRange& range : input.scene->ranges) (range.skin && input.skin ? skin : other) = true;
-    if (skin) shadePoints(device, commands, input, tile, target, buffers, true);
-    if (other) shadePoints(device, commands, input, tile, target, buffers, false);
+    if (skin) shadePoints(device, commands, input, tile, target, true);
+    if (other) shadePoints(device, commands, input, tile, target, false);
     const bool aovs = static_cast<bool>(target.aovs);
     gpu::Bindings bindings{{"pixels", buffers.pixels},
                            {"PointBuffer", buffers.points},

@@ -24,22 +24,28 @@ struct ViewTile {
     int supersampling = 2;
 };
 
-// Filled by recordView: which triangles the samples of a tile see, nearest layer first.
-struct ViewImages {
-    gpu::Image triangles;
-    int layers = 1;
+// What the steps of a tile hand to one another; every tile of a picture uses the same.
+struct TileBuffers {
+    int layers = 1;        // surfaces kept apart: seen through, and what is behind them
+    gpu::Image triangles;  // which triangles the samples see, nearest layer first
+    gpu::Image depth, peeledDepth[2];
     gpu::Buffer camera;
+    gpu::Buffer points, skinList, otherList, counts, groups, shaded;
+    gpu::Image pixels;
 };
 
 // Largest edge of a tile, in pixels, whose shading points fit the memory that a tile may take.
 int tileSize(const SceneBuffers& scene, int supersampling);
 
-ViewImages recordView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
-                      const shared::ViewCamera& camera, const ViewTile& tile);
+// For tiles of up to `size` pixels.
+TileBuffers makeTileBuffers(gpu::Device& device, const SceneBuffers& scene, const glm::ivec2& size, int supersampling);
+
+void recordView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                const shared::ViewCamera& camera, const ViewTile& tile, const TileBuffers& buffers);
 
 struct CompositeInput {
     const SceneBuffers* scene;
-    const ViewImages* view;
+    const TileBuffers* buffers;
     const SkinLight* skin = nullptr;  // nullptr: no skin
     const LightMaps* lights;          // without depth: no shadows
     const EnvironmentMaps* environment = nullptr;
