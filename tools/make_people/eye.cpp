@@ -134,7 +134,9 @@ void shadeByOpenness(TriangleMesh& ball, const Eye& eye, const TriangleMesh& wal
                 if (open[k] && glm::dot(to, direction[k]) >= along && hits(wall, origin, direction[k]))
                     open[k] = false;
         }
-        ball.colors[i] = glm::dvec3(double(std::count(open.begin(), open.end(), true)) / kDirections);
+        // A renderer shadows the ball as well, though not by all of this: meet it half way.
+        ball.colors[i] =
+            glm::dvec3(std::sqrt(double(std::count(open.begin(), open.end(), true)) / kDirections));
     });
 }
 

@@ -12,11 +12,11 @@ namespace {
 
 constexpr double kDecimetre = 0.1;  // metres
 // The cloth's cross-section at the neckline: a rolled rib of 18 mm, then cloth that lies 4 mm above the skin.
-constexpr double kRibWidth = 0.018, kRibHeight = 0.0062, kClothHeight = 0.004;
+constexpr double kRibWidth = 0.018, kRibHeight = 0.0068, kClothHeight = 0.004;
 constexpr double kTile = 0.02;  // metres that one tile of knit covers
 
 double clothHeight(double below) {
-    if (below <= 0.0005) return 0.0005;                        // the edge lies on the skin
+    if (below <= 0.0005) return 0.002;                         // the edge lies close to the skin
     if (below < 0.003) return 0.8 * kRibHeight;                // and rolls up
     if (below < kRibWidth - 0.001) return kRibHeight;          // rib
     if (below < kRibWidth + 0.001) return 0.8 * kClothHeight;  // seam

@@ -34,8 +34,8 @@ void makeScene(const fs::path& recipePath, const fs::path& makeHuman, const fs::
     constexpr double kGroupFov = 0.32, kFaceFov = 0.35, kFaceDistance = 1.0;
     glm::dvec3 middle(0);
     for (const PersonRecipe& person : recipe.people) middle += person.eyes / double(recipe.people.size());
-    const glm::dvec3 groupTarget = middle - glm::dvec3(0, 0.065, 0);
-    const glm::dvec3 groupCamera = groupTarget + glm::dvec3(0, 0.04, 1.75);
+    const glm::dvec3 groupTarget = middle - glm::dvec3(0, 0.055, 0);
+    const glm::dvec3 groupCamera = groupTarget + glm::dvec3(0, 0.04, 1.62);
 
     GltfFile file;
     file.setCopyright("Made from MakeHuman data (CC0); see scenes/LICENSES.md of cutis");
