@@ -10,6 +10,7 @@
 #include "renderer/frame/camera.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gpu/device.h"
+#include "renderer/passes/light_views.h"
 #include "renderer/scene/environment_samples.h"
 #include "renderer/scene/light_samples.h"
 
@@ -26,8 +27,10 @@ double millisecondsSince(Clock::time_point start) {
 }
 
 // Texels a little finer than the pixels where the character stands; never finer than the narrowest blur of skin.
-double wantedMmPerTexel(const Character& character, const ViewCameraMetrics& metrics) {
-    constexpr double kFinest = 0.08;
+// A character that the picture does not show needs hardly any.
+double wantedMmPerTexel(const Character& character, const ViewCameraMetrics& metrics, bool inView) {
+    constexpr double kFinest = 0.08, kOutOfView = 10;
+    if (!inView) return kOutOfView;
     return std::max(kFinest, 0.85 * metrics.metresPerPixel(character.bounds.centre()) * 1000);
 }
 
@@ -172,7 +175,9 @@ RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const 
     const ViewCameraMetrics metrics(input.camera, {settings.width, settings.height});
     AtlasOptions atlasOptions{.size = settings.irradianceSize};
     for (const Character& character : scene.characters) {
-        atlasOptions.mmPerTexelWanted.push_back(wantedMmPerTexel(character, metrics));
+        const glm::vec3 low(character.bounds.min - frame.geometry.origin), high(character.bounds.max - frame.geometry.origin);
+        atlasOptions.mmPerTexelWanted.push_back(
+            wantedMmPerTexel(character, metrics, reaches(frame.camera.worldToClip, low, high)));
     }
     frame.atlas = layOutAtlas(scene, frame.geometry, atlasOptions);
     for (const ReceiverGroup& group : frame.geometry.receiverGroups) frame.groups.push_back(group.bounds);

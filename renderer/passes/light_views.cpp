@@ -126,12 +126,12 @@ std::vector<shared::LightView> computeLightViews(std::span<const LightSample> sa
     return views;
 }
 
-bool reaches(const shared::LightView& view, const glm::vec3& boxMin, const glm::vec3& boxMax) {
+bool reaches(const glm::mat4& worldToClip, const glm::vec3& boxMin, const glm::vec3& boxMax) {
     // A box is out when all its corners are beyond one plane of the frustum. Nothing is before the near plane.
     int outside[5] = {};
     for (int i = 0; i < 8; ++i) {
         const glm::vec4 corner(i & 1 ? boxMax.x : boxMin.x, i & 2 ? boxMax.y : boxMin.y, i & 4 ? boxMax.z : boxMin.z, 1);
-        const glm::vec4 clip = view.worldToClip * corner;
+        const glm::vec4 clip = worldToClip * corner;
         outside[0] += clip.x < -clip.w;
         outside[1] += clip.x > clip.w;
         outside[2] += clip.y < -clip.w;

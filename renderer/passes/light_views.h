@@ -25,7 +25,8 @@ shared::LightView perspectiveView(const glm::dvec3& position, const Bounds& rece
 std::vector<shared::LightView> computeLightViews(std::span<const LightSample> samples, std::span<const Bounds> groups,
                                                  const Bounds& casters, const glm::dvec3& origin, int mapSize);
 
-// Whether a box (metres from the origin) can cast a shadow into the view.
-bool reaches(const shared::LightView& view, const glm::vec3& boxMin, const glm::vec3& boxMax);
+// Whether a box (metres from the origin) lies in the frustum or between it and the eye: whether it can cast a shadow
+// there, or be seen.
+bool reaches(const glm::mat4& worldToClip, const glm::vec3& boxMin, const glm::vec3& boxMax);
 
 }  // namespace cutis
