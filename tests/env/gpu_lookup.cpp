@@ -5,6 +5,7 @@
 
 #include "renderer/gpu/commands.h"
 #include "renderer/skin/specular.h"
+#include "renderer/skin/specular_lobes.h"
 #include "shaders/shared/scene.h"
 
 namespace cutis::test {
@@ -30,7 +31,9 @@ std::vector<glm::vec3> lookUp(const EnvironmentMaps& maps, const LookupSettings&
                                                       float(settings.intensity), 0};
     const gpu::Buffer settingsBuffer(device, {.name = "settings", .bytes = sizeof(environment)});
     commands.upload(settingsBuffer, std::as_bytes(std::span(&environment, 1)));
-    const std::vector<float> row = skin::directionalAlbedoRow(settings.roughness);
+    std::vector<float> row = skin::directionalAlbedoRow(settings.roughness);
+    const std::vector<float> lobes = skin::specularLobeTable(settings.roughness);
+    row.insert(row.end(), lobes.begin(), lobes.end());
     const gpu::Buffer table(device, {.name = "table", .bytes = row.size() * sizeof(float)});
     commands.upload(table, row);
     const gpu::Program& program = device.program("environment_lookup.comp");

@@ -7,11 +7,6 @@
 #include "renderer/scene/environment_clusters.h"
 
 namespace cutis::test {
-namespace {
-
-struct Texel {
-    glm::dvec3 direction, flux;
-};
 
 std::vector<Texel> listTexels(const Environment& e) {
     const double pi = std::numbers::pi;
@@ -37,8 +32,6 @@ std::vector<Texel> listTexels(const Environment& e) {
         }
     return texels;
 }
-
-}  // namespace
 
 std::vector<glm::dvec3> sumTexels(const Environment& environment, std::span<const glm::dvec3> normals,
                                   const std::function<double(double)>& weight) {

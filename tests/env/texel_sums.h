@@ -10,8 +10,16 @@
 
 namespace cutis::test {
 
-// For each normal n: Σ L Ω weight(n·ω) over all texels, each at its centre with its exact solid angle; texels
-// of more than a thousandth of all light are cut into 16×16.
+// Light of a texel, or of a part of it: RGB ∫ L dω.
+struct Texel {
+    glm::dvec3 direction, flux;
+};
+
+// Every texel at its centre with its exact solid angle; those of more than a thousandth of all light in 16×16
+// parts.
+std::vector<Texel> listTexels(const Environment& environment);
+
+// For each normal n: Σ L Ω weight(n·ω) over them.
 std::vector<glm::dvec3> sumTexels(const Environment& environment, std::span<const glm::dvec3> normals,
                                   const std::function<double(double)>& weight);
 

@@ -1,0 +1,99 @@
+// The fitted lobes against the lobe that they stand for.
+#include "renderer/skin/specular_lobes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "renderer/skin/specular.h"
+#include "shaders/shared/albedo_table.h"
+
+using namespace cutis::skin;
+using glm::dvec3;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double lobeDensity(const SpecularLobe& lobe, const dvec3& w) {
+    const double variance = lobe.sigma * lobe.sigma;
+    const auto at = [&](const dvec3& d) {
+        return std::exp((glm::dot(d, w) - 1) / variance) /
+               (2 * kPi * variance * (1 - std::exp(-2 / variance)));
+    };
+    if (!lobe.paired) return lobe.weight * at(lobe.direction);
+    return lobe.weight / 2 *
+           (at(lobe.direction) + at({lobe.direction.x, -lobe.direction.y, lobe.direction.z}));
+}
+
+}  // namespace
+
+class SpecularLobes : public testing::TestWithParam<double> {};
+
+// Relative L2 between the sum of lobes and f_s (N·ω), over a sphere that is seen from afar and all directions
+// of one light of no extent. An environment is smoother than that (tests/env).
+TEST_P(SpecularLobes, sumMatchesTheLobe) {
+    const double m = GetParam();
+    const auto rows = fitSpecularLobes(m);
+    ASSERT_EQ(int(rows.size()), LOBE_ROWS);
+    double difference = 0, exact = 0;
+    for (int j = 1; j < LOBE_ROWS; ++j) {
+        const double t = double(j) / (LOBE_ROWS - 1), mu = t * t, sine = std::sqrt(1 - mu * mu);
+        const dvec3 n(0, 0, 1), v(sine, 0, mu);
+        const double albedo = directionalAlbedo(mu, m);
+        const double seen = t * t * t;  // μ dμ, the area of the sphere's disc
+        // Around the mirror direction, finer towards it: cosθ = 1 - u² (1 - cos of the reach).
+        const double reach = 1 - std::cos(std::min(kPi, 8 * m));
+        const int rings = 300, spokes = 300;
+        for (int i = 0; i < rings; ++i)
+            for (int k = 0; k < spokes; ++k) {
+                const double u = (i + 0.5) / rings, c = 1 - u * u * reach, r = std::sqrt(1 - c * c);
+                const double phi = 2 * kPi * (k + 0.5) / spokes;
+                const dvec3 w(r * std::cos(phi), r * std::sin(phi), c);  // frame of the mirror direction
+                const dvec3 world(w.x * mu - w.z * sine, w.y, w.x * sine + w.z * mu);
+                const double f = kelemenSpecular(n, v, world, m) * std::max(world.z, 0.0);
+                double sum = 0;
+                for (const SpecularLobe& lobe : rows[j]) sum += albedo * lobeDensity(lobe, w);
+                difference += seen * (sum - f) * (sum - f) * u;
+                exact += seen * f * f * u;
+            }
+    }
+    const double error = std::sqrt(difference / exact);
+    RecordProperty("error", std::to_string(error));
+    EXPECT_LE(error, m <= 0.3 ? 0.08 : 0.16);
+}
+
+TEST_P(SpecularLobes, areWellFormed) {
+    for (const auto& row : fitSpecularLobes(GetParam())) {
+        ASSERT_EQ(int(row.size()), LOBES_IN_PLANE + LOBE_PAIRS);
+        double sum = 0;
+        for (const SpecularLobe& lobe : row) {
+            EXPECT_NEAR(glm::length(lobe.direction), 1, 1e-9);
+            EXPECT_TRUE(lobe.sigma > 0 && lobe.sigma < 2);
+            EXPECT_GE(lobe.weight, 0);
+            if (!lobe.paired) {
+                EXPECT_EQ(lobe.direction.y, 0);
+            }
+            sum += lobe.weight;
+        }
+        EXPECT_NEAR(sum, 1, 1e-9);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Roughness, SpecularLobes, testing::Values(0.001, 0.05, 0.1, 0.3, 0.6, 1.0));
+
+TEST(SpecularLobeTable, holdsTheFit) {
+    const auto rows = fitSpecularLobes(0.25);
+    for (int run = 0; run < 2; ++run) {  // fitted, then perhaps from the cache
+        const std::vector<float> table = specularLobeTable(0.25);
+        ASSERT_EQ(int(table.size()), LOBE_ROWS * LOBE_ROW_SIZE);
+        const SpecularLobe& lobe = rows[7][5];
+        const float* at = &table[7 * LOBE_ROW_SIZE + 5 * LOBE_FLOATS];
+        EXPECT_FLOAT_EQ(at[0], float(lobe.direction.x));
+        EXPECT_FLOAT_EQ(at[1], float(lobe.direction.y));
+        EXPECT_FLOAT_EQ(at[3], float(lobe.sigma));
+        EXPECT_FLOAT_EQ(at[4], float(lobe.weight));
+    }
+}
