@@ -22,10 +22,23 @@ double mmPerUnitOf(const Scene& scene, int material) {
     return scene.materials[material].skin->mmPerUnit;
 }
 
+// The value below which half of the weight lies; sorts the list.
+double weightedMedian(std::vector<std::pair<double, double>>& valuesAndWeights) {
+    std::sort(valuesAndWeights.begin(), valuesAndWeights.end());
+    double total = 0, seen = 0;
+    for (const auto& [value, weight] : valuesAndWeights) total += weight;
+    for (const auto& [value, weight] : valuesAndWeights) {
+        seen += weight;
+        if (seen >= 0.5 * total) return value;
+    }
+    return 0;
+}
+
 // Lengths of the surface along u and v, in mm per unit of uv, on average over a chart's triangles.
 glm::dvec2 meanStretch(const Geometry& geometry, const std::vector<int>& draws, double mmPerUnit) {
     glm::dvec2 sum(0);
-    double area = 0, surface = 0;  // twice the areas
+    double area = 0;                                    // twice that of the triangles in uv
+    std::vector<std::pair<double, double>> densities;  // mm per unit of uv, area of that density
     for (int d : draws) {
         const GeometryDraw& draw = geometry.draws[d];
         for (std::uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3) {
@@ -42,13 +55,14 @@ glm::dvec2 meanStretch(const Geometry& geometry, const std::vector<int>& draws, 
             const double weight = std::abs(det);
             sum += weight * glm::dvec2(glm::dot(du, du), glm::dot(dv, dv));
             area += weight;
-            surface += glm::length(glm::cross(p1, p2));
+            densities.emplace_back(std::sqrt(glm::length(glm::cross(p1, p2)) / weight), weight);
         }
     }
     if (!(area > 0)) return glm::dvec2(1);
-    // Their ratio shapes the rectangle; its size makes the texels as many as the surface has of the wanted size.
+    // Their ratio shapes the rectangle; its size gives the wanted size to the median texel, which on a layout made for
+    // faces is one of the face.
     const glm::dvec2 rms = glm::sqrt(sum / area);
-    return rms * std::sqrt(surface / area / std::max(rms.x * rms.y, 1e-30));
+    return rms * (weightedMedian(densities) / std::sqrt(std::max(rms.x * rms.y, 1e-30)));
 }
 
 std::vector<AtlasChart> collectCharts(const Scene& scene, Geometry& geometry) {
@@ -229,16 +243,7 @@ void computeMetric(const Scene& scene, const Geometry& geometry, const std::vect
         const glm::dvec4 sum = sums[weld[v]];
         atlas.vertices[v].metric = sum.w > 0 ? glm::vec3(glm::dvec3(sum) / sum.w) : glm::vec3(0);
     }
-    std::sort(texelSizes.begin(), texelSizes.end());
-    double total = 0, seen = 0;
-    for (const auto& [size, texels] : texelSizes) total += texels;
-    for (const auto& [size, texels] : texelSizes) {
-        seen += texels;
-        if (seen >= 0.5 * total) {
-            atlas.mmPerTexel = size;
-            break;
-        }
-    }
+    atlas.mmPerTexel = weightedMedian(texelSizes);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ double millisecondsSince(Clock::time_point start) {
 double wantedMmPerTexel(const Character& character, const ViewCameraMetrics& metrics, bool inView) {
     constexpr double kFinest = 0.08, kOutOfView = 10;
     if (!inView) return kOutOfView;
-    return std::max(kFinest, 0.85 * metrics.metresPerPixel(character.bounds.centre()) * 1000);
+    return std::max(kFinest, 0.9 * metrics.metresPerPixel(character.bounds.centre()) * 1000);
 }
 
 void prepareTarget(FrameContext& frame) {
