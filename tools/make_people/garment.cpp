@@ -33,8 +33,9 @@ std::vector<std::set<int>> neighbours(const QuadMesh& mesh) {
     return out;
 }
 
-// Cloth bridges hollows: smooth the body, then move each point out to where the skin stays below it.
-void drape(QuadMesh& mesh, unsigned seed) {
+// Cloth bridges hollows: smooth the body, then move each point out to where the skin stays below it. At the
+// neckline it follows the skin: `below` is each vertex's distance from there.
+void drape(QuadMesh& mesh, const std::vector<double>& below, unsigned seed) {
     const auto ring = neighbours(mesh);
     const std::vector<glm::dvec3> skin = mesh.positions;
     for (int step = 0; step < 12; ++step) {
@@ -53,7 +54,10 @@ void drape(QuadMesh& mesh, unsigned seed) {
         const glm::dvec3 p =
             mesh.positions[i] / 0.05;  // folds of about 5 cm that run down rather than across
         const double fold = 0.0022 * gradientNoise({p.x * 1.3, p.y * 0.6, p.z * 1.3}, seed);
-        mesh.positions[i] += normals[i] * (std::max(sunk, 0.0) + fold + 0.001);
+        constexpr double kFree = 0.06;  // metres from the neckline where the cloth hangs free
+        const double t = std::clamp(below[i] / kFree, 0.0, 1.0), free = t * t * (3 - 2 * t);
+        const glm::dvec3 hanging = mesh.positions[i] + normals[i] * (std::max(sunk, 0.0) + fold + 0.001);
+        mesh.positions[i] = glm::mix(skin[i], hanging, free);
     }
 }
 
@@ -120,7 +124,9 @@ double belowNeckline(const glm::dvec3& base, double drop) {
 
 TriangleMesh makeShirt(const QuadMesh& body, const QuadMesh& base, double drop, unsigned seed) {
     QuadMesh cloth = body;
-    drape(cloth, seed);
+    std::vector<double> below;
+    for (const glm::dvec3& p : base.positions) below.push_back(belowNeckline(p, drop));
+    drape(cloth, below, seed);
     const QuadMesh fine = subdivide(cloth, 1), fineBase = subdivide(base, 1);
     Cut cut;
     cut.position = fine.positions;

@@ -214,7 +214,7 @@ int addHair(GltfFile& file, const fs::path& folder, const Sources& sources, cons
     material["doubleSided"] = true;
     material["alphaMode"] = hair.cutoff > 0 ? "MASK" : "BLEND";
     if (hair.cutoff > 0) material["alphaCutoff"] = hair.cutoff;
-    return addMeshNode(file, name, triangulate(fitted), file.addMaterial(material));
+    return addMeshNode(file, name, triangulate(subdivide(fitted, 1)), file.addMaterial(material));
 }
 
 int addShirt(GltfFile& file, const fs::path& folder, const PersonRecipe& person, const TriangleMesh& mesh) {
