@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
+#include <ostream>
+#include <string>
 
 #include "tests/support/figure.h"
 #include "tests/support/pictures.h"
@@ -57,6 +59,10 @@ struct Patch {
     double rotation;     // degrees
     glm::dvec3 towards;  // where the light must come from
 };
+
+void PrintTo(const Patch& patch, std::ostream* out) {
+    *out << patch.name;
+}
 
 class EnvironmentOrientation : public ::testing::TestWithParam<Patch> {};
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
+#include <ostream>
+#include <string>
 
 #include "tests/support/closed_forms.h"
 #include "tests/support/figure.h"
@@ -27,6 +29,10 @@ struct Case {
 std::string nameOf(const Case& c) {
     return std::to_string(c.radiusMm).substr(0, 1) + "_mm_seen_at_" + std::to_string(int(c.viewDegrees)) +
            "_degrees_" + (c.mapping == SphereMapping::latLong ? "lat_long" : "cube");
+}
+
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << nameOf(c);
 }
 
 class Sphere : public ::testing::TestWithParam<Case> {};
