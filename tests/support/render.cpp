@@ -99,7 +99,7 @@ Rendered runRender(const TemporaryFolder& folder, std::vector<std::string> argum
                                        std::to_string(width) + "x" + std::to_string(height)});
     if (!aovs.empty()) arguments.insert(arguments.end(), {"--aov", joined(aovs)});
     const ProcessResult run =
-        runProcess(arguments, {{"CUTIS_VALIDATION", "1"}, {"CUTIS_CACHE_DIR", CUTIS_TEST_CACHE_DIR}}, 240);
+        runProcess(arguments, {{"CUTIS_VALIDATION", "1"}, {"CUTIS_CACHE_DIR", CUTIS_TEST_CACHE_DIR}}, 380);
     const std::string said = "status " + std::to_string(run.status) + (run.timedOut ? ", timed out" : "") +
                              ", stderr: " + run.err.substr(0, 4000);
     if (run.status != 0) throw std::runtime_error("cutis render failed: " + said);
