@@ -87,8 +87,8 @@ void main() {
         }
         for (uint k = 0u; k < push.gaussianCount; ++k) {
             GaussianTerm term = gaussians[push.firstGaussian + k];
-            float through = exp(-thickness * thickness / (2.0 * term.variance)) *
-                            clamp(apart / (6.0 * sqrt(term.variance)), 0.0, 1.0);
+            float away = clamp(apart / (6.0 * sqrt(term.variance)), 0.0, 1.0);
+            float through = exp(-thickness * thickness / (2.0 * term.variance)) * away * away * (3.0 - 2.0 * away);
             if (through > 1e-6) sum += term.weight * through * levelAt(place, int(k));
         }
     }

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "renderer/core/error.h"
+#include "renderer/frame/mips.h"
 #include "renderer/gpu/device.h"
 #include "shaders/shared/scene.h"
 
@@ -106,15 +107,21 @@ TextureArrays uploadTextures(gpu::Device& device, gpu::Commands& commands, const
                                    VK_IMAGE_USAGE_TRANSFER_DST_BIT});
         for (std::size_t layer = 0; layer < textures.size(); ++layer) {
             const Image& image = scene.images[scene.textures[textures[layer]].image];
-            const gpu::ImageView target = array.layer(static_cast<std::uint32_t>(layer)).mip(0);
-            if (image.width == key.width && image.height == key.height) {
-                commands.upload(target, image.texels);
-            } else {
-                commands.upload(target, resample(image, key.width, key.height));
+            const gpu::ImageView target = array.layer(static_cast<std::uint32_t>(layer));
+            std::vector<std::byte> texels = image.width == key.width && image.height == key.height
+                                                ? image.texels
+                                                : resample(image, key.width, key.height);
+            int levelWidth = key.width, levelHeight = key.height;
+            for (std::uint32_t mip = 0; mip < array.desc().mips; ++mip) {
+                if (mip > 0) {
+                    texels = halveTexels(texels, levelWidth, levelHeight, key.format, key.srgb);
+                    levelWidth = std::max(1, levelWidth / 2);
+                    levelHeight = std::max(1, levelHeight / 2);
+                }
+                commands.upload(target.mip(mip), texels);
             }
             arrays.places[textures[layer]] = {static_cast<int>(arrays.images.size()), static_cast<int>(layer)};
         }
-        if (key.sampler.mipmapped) commands.generateMips(array);
         const VkFilter filter = key.sampler.nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
         arrays.sampled.push_back(gpu::sampled(
             array, device.sampler({.filter = filter, .u = addressMode(key.sampler.wrapU),

@@ -14,11 +14,16 @@
 // every invocation, so that a texture that is not there would cost as much as one that is.
 layout(constant_id = 0) const uint TEXTURE_GROUPS = 16;
 
-// at: texture coordinates and layer; dx, dy: their change over one pixel, which chooses the mip.
+// at: texture coordinates and layer; dx, dy: their change over one pixel. They choose the mip here, by the longer of the
+// two footprints: devices compute it from gradients each in its own way, and pictures should agree.
 vec4 sampleTextureArray(uint index, vec3 at, vec2 dx, vec2 dy) {
     vec4 value = vec4(0.0);
 #define CUTIS_SAMPLE(i) \
-    if (i < TEXTURE_GROUPS && index == i) value = textureGrad(CUTIS_TEXTURE_ARRAY[i], at, dx, dy);
+    if (i < TEXTURE_GROUPS && index == i) { \
+        vec2 size = vec2(textureSize(CUTIS_TEXTURE_ARRAY[i], 0).xy); \
+        float footprint = max(dot(dx * size, dx * size), dot(dy * size, dy * size)); \
+        value = textureLod(CUTIS_TEXTURE_ARRAY[i], at, 0.5 * log2(max(footprint, 1e-12))); \
+    }
     CUTIS_SAMPLE(0u) CUTIS_SAMPLE(1u) CUTIS_SAMPLE(2u) CUTIS_SAMPLE(3u)
     CUTIS_SAMPLE(4u) CUTIS_SAMPLE(5u) CUTIS_SAMPLE(6u) CUTIS_SAMPLE(7u)
     CUTIS_SAMPLE(8u) CUTIS_SAMPLE(9u) CUTIS_SAMPLE(10u) CUTIS_SAMPLE(11u)
