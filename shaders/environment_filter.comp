@@ -1,5 +1,6 @@
 #version 460
-// The next level of the radiance cube: the level above it convolved with a lobe exp((cosθ - 1)/σ²) around each texel.
+// A wider lobe of the environment's radiance: one mip of a cube convolved with exp((cosθ - 1)/σ²) around each texel of
+// another.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/environment.h"
@@ -7,7 +8,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = 0) uniform samplerCube source;  // one level
+layout(binding = 0) uniform samplerCube source;  // one mip
 layout(binding = 1, rgba32f) writeonly uniform image2DArray target;  // six faces
 
 layout(push_constant, scalar) uniform Push {

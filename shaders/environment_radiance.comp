@@ -1,5 +1,5 @@
 #version 460
-// Level 0 of the radiance cube from a lat-long image. Peaks of a texel or two would be caught or missed by the samples of
+// The radiance cube from a lat-long image. Peaks of a texel or two would be caught or missed by the samples of
 // a cube texel, so the image comes without them, and each is spread over the four cube texels around it with exactly its
 // flux.
 #extension GL_GOOGLE_include_directive : require
@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform Push {
     uint peakCount;
 } push;
 
-const int kSamples = 3;  // along each axis
+const int kSamples = 2;  // along each axis
 const float kPi = 3.14159265358979;
 
 vec3 lookUp(vec3 d) {

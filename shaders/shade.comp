@@ -5,6 +5,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 // features: SKIN SHADOWS ENVIRONMENT TEXTURED AOVS
+#include "shared/environment.h"
 #include "shared/scene.h"
 #include "lib/geometry.glsl"
 #include "lib/octahedral.glsl"
@@ -39,8 +40,11 @@ layout(binding = 18) uniform sampler2DArrayShadow lightDepthCompare;
 layout(binding = 19) uniform sampler2DArray lightDepth;
 #endif
 #ifdef ENVIRONMENT
-layout(binding = 21) uniform samplerCube environmentRadiance;
-layout(binding = 22, scalar) readonly buffer EnvironmentBuffer { EnvironmentSettingsData environment; };
+layout(binding = 21) uniform samplerCubeArray environmentRadiance;
+layout(binding = 22, scalar) readonly buffer EnvironmentBuffer {
+    EnvironmentSettingsData environment;
+    EnvironmentSource environmentSources[];
+};
 #ifdef SKIN
 #define ENVIRONMENT_SPECULAR_ONLY
 layout(binding = 23) uniform sampler2D openSky;

@@ -151,12 +151,16 @@ void prepareEnvironment(FrameContext& frame, const RenderInput& input, Environme
 void uploadEnvironment(FrameContext& frame) {
     const EnvironmentSettings& settings = frame.input->rig.environment;
     const double angle = settings.rotation * 3.14159265358979323846 / 180;
+    const std::vector<shared::EnvironmentSource>& sources = frame.environmentMaps.sources;
     const std::vector<shared::EnvironmentSettingsData> data{{static_cast<float>(std::cos(angle)),
                                                              static_cast<float>(std::sin(angle)),
-                                                             static_cast<float>(settings.intensity), 0}};
+                                                             static_cast<float>(settings.intensity),
+                                                             static_cast<std::uint32_t>(sources.size())}};
     frame.environmentSettings =
-        gpu::Buffer(*frame.device, {.name = "environment settings", .bytes = sizeof(data[0])});
+        gpu::Buffer(*frame.device, {.name = "environment settings",
+                                    .bytes = sizeof(data[0]) + sources.size() * sizeof(sources[0])});
     frame.commands->upload(frame.environmentSettings, data);
+    if (!sources.empty()) frame.commands->upload(frame.environmentSettings, sources, sizeof(data[0]));
 }
 
 }  // namespace

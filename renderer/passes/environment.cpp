@@ -16,7 +16,7 @@ namespace cutis {
 namespace {
 
 constexpr const char* kCacheKind = "environment";
-constexpr std::uint64_t kCacheVersion = 2;  // grows with every change of what the shaders write
+constexpr std::uint64_t kCacheVersion = 3;  // grows with every change of what the shaders write
 
 template <class T>
 std::uint64_t hashValue(const T& value, std::uint64_t seed) {
@@ -148,35 +148,44 @@ class Prefilter {
     }
 
     void makeRadiance(EnvironmentMaps& maps) {
-        struct FilterPush {
-            float sigma, step;
-        };
-        const std::uint32_t size = shared::ENVIRONMENT_FACE, levels = shared::ENVIRONMENT_LEVELS;
-        maps.radiance = makeCube(device_, "environment radiance", size, 1, levels);
-        fill(maps.radiance, hashValue(levels, hashValue(size, key_)), [&] {
-            resample(maps.radiance.mip(0));
-            const gpu::Program& program = device_.program("environment_filter.comp");
-            double previous = shared::ENVIRONMENT_SPREAD_0;
-            for (std::uint32_t level = 1; level < levels; ++level) {
-                // Variances add up: what the interpolated source has, this step's lobe, and interpolation of
-                // the result, a sixth of a texel squared along each axis on average.
-                const double wanted = shared::ENVIRONMENT_SPREAD * std::exp2(level),
-                             texel = 2.0 / (size >> level);
-                const double lobe = std::sqrt(wanted * wanted - previous * previous - texel * texel / 6);
-                previous = wanted;
-                // Level 0 is as sharp as its texels; the others are smooth over two of theirs.
-                const double step = level == 1 ? texel / 2 : texel;
-                commands_.dispatch(program,
-                                   {{"source", gpu::sampled(maps.radiance.mip(level - 1), device_.sampler())},
-                                    {"target", maps.radiance.mip(level)}},
-                                   FilterPush{float(lobe), float(step)},
-                                   gpu::groupsFor(program, size >> level, size >> level, 6));
-            }
+        EnvironmentParts parts = separateSources(environment_);
+        maps.sources = std::move(parts.sources);
+        maps.radiance = makeCube(device_, "environment radiance", shared::ENVIRONMENT_FACE,
+                                 shared::ENVIRONMENT_CUBES, shared::ENVIRONMENT_MIPS);
+        fill(maps.radiance, hashValue(shared::ENVIRONMENT_LOBES, key_), [&] {
+            makeLobes(environment_, maps.radiance.layers(6 * shared::ENVIRONMENT_ALL, 12));
+            makeLobes(parts.soft, maps.radiance.layers(6 * shared::ENVIRONMENT_SOFT, 12));
         });
     }
 
-    void resample(const gpu::ImageView& target) {
-        const EnvironmentPeaks split = separatePeaks(environment_);
+    // All lobes of one pair of cubes, each from the one two before it: variances add up.
+    void makeLobes(const Environment& environment, const gpu::ImageView& pair) {
+        struct Push {
+            float sigma, step;
+        };
+        const auto image = [&](std::uint32_t lobe) { return pair.layers(6 * (lobe % 2), 6).mip(lobe / 2); };
+        const auto spread = [](std::uint32_t lobe) {
+            return lobe == 0 ? shared::ENVIRONMENT_SPREAD_0
+                             : shared::ENVIRONMENT_SPREAD * std::exp2(0.5 * lobe);
+        };
+        resample(environment, image(0));
+        const gpu::Program& program = device_.program("environment_filter.comp");
+        for (std::uint32_t lobe = 1; lobe < shared::ENVIRONMENT_LOBES; ++lobe) {
+            const std::uint32_t from = lobe < 2 ? 0 : lobe - 2;
+            const gpu::ImageView target = image(lobe);
+            // Interpolation of the result adds a sixth of a texel squared along each axis on average.
+            const double texel = 2.0 / target.width(), interpolation = texel * texel / 6;
+            const double own =
+                std::sqrt(spread(lobe) * spread(lobe) - spread(from) * spread(from) - interpolation);
+            commands_.dispatch(program,
+                               {{"source", gpu::sampled(image(from), device_.sampler())}, {"target", target}},
+                               Push{float(own), float(spread(lobe) / 2)},
+                               gpu::groupsFor(program, target.width(), target.width(), 6));
+        }
+    }
+
+    void resample(const Environment& environment, const gpu::ImageView& target) {
+        const EnvironmentPeaks split = separatePeaks(environment);
         const gpu::Image latLong(device_, {.name = "environment",
                                            .format = VK_FORMAT_R32G32B32A32_SFLOAT,
                                            .width = std::uint32_t(split.width),

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "renderer/gpu/device.h"
 #include "renderer/gpu/image.h"
 #include "renderer/scene/light.h"
+#include "shaders/shared/environment.h"
 
 namespace cutis {
 
@@ -24,8 +26,9 @@ struct EnvironmentMaps {
     gpu::Image irradiance;  // cube by surface normal: ∫ L (N·ω) dω
     gpu::Image matte;  // cube array, one layer each kind of skin: ∫ L min(ρ_dt(N·ω, m), 1/s) (N·ω) dω, so
                        // that irradiance - s·matte is what enters the skin; none without skin
-    gpu::Image radiance;  // cube whose mips are the levels of shaders/shared/environment.h
-    double gpuMs = 0;     // spent on filtering: 0 when all came from the cache
+    gpu::Image radiance;                             // cube array, laid out by shaders/shared/environment.h
+    std::vector<shared::EnvironmentSource> sources;  // compact sources, not in the soft cubes of `radiance`
+    double gpuMs = 0;                                // spent on filtering: 0 when all came from the cache
 };
 
 // Filters on the device, or takes the result from the cache, where it is kept by the content of the

@@ -8,12 +8,15 @@
 #include "renderer/core/parallel.h"
 #include "renderer/scene/environment_cells.h"
 #include "renderer/scene/environment_clusters.h"
+#include "renderer/scene/environment_samples.h"
 
 namespace cutis {
 namespace {
 
 constexpr std::size_t kMaxPeaks = 256;
 constexpr double kPeakOverMean = 8;
+constexpr int kMaxSources = 32;
+constexpr double kMaxSourceSpread = 0.05;
 constexpr double kNearby = 0.03;             // radians: sources this near share a terminator
 constexpr double kCoarseTolerance = 0.0015;  // of the mean irradiance: error that faint sources may leave,
 constexpr double kFineTolerance = 0.006;     // and bright ones
@@ -82,6 +85,17 @@ EnvironmentPeaks separatePeaks(const Environment& environment) {
                 {glm::vec3(cell.flux * (1 - kept)), glm::vec3(glm::normalize(cell.moment))});
     }
     return result;
+}
+
+EnvironmentParts separateSources(const Environment& environment) {
+    EnvironmentSplit split = splitEnvironment(environment, kMaxSources, 0, 1, kMaxSourceSpread);
+    EnvironmentParts parts{{}, std::move(split.residual)};
+    for (const LightSample& sample : split.samples) {
+        const double variance = sample.radius * sample.radius / 2;  // of the angle, rad²
+        parts.sources.push_back(
+            {glm::vec3(sample.intensity), glm::vec3(-sample.direction * (1 - variance / 2))});
+    }
+    return parts;
 }
 
 }  // namespace cutis

@@ -26,7 +26,7 @@ std::vector<FluxSums> clusterExcess(const Environment& environment, float thresh
 
 // Whether the region brighter than the threshold falls into n compact pieces. By area, not by light: the
 // light of a sun would hide how much of the sky comes with it.
-bool isCompact(const Environment& environment, float threshold, std::size_t n) {
+bool isCompact(const Environment& environment, float threshold, std::size_t n, double maxSpread) {
     const EnvironmentCells grid = sumEnvironment(environment, [&](std::size_t texel) {
         const glm::vec3& radiance = environment.radiance[texel];
         return glm::dvec3(std::max({radiance.x, radiance.y, radiance.z}) > threshold);
@@ -36,7 +36,7 @@ bool isCompact(const Environment& environment, float threshold, std::size_t n) {
         sum += piece.weight() * piece.spread() * piece.spread();
         area += piece.weight();
     }
-    return sum <= area * kMaxSampleSpread * kMaxSampleSpread;
+    return sum <= area * maxSpread * maxSpread;
 }
 
 // Up where all of it cancels: a faint ring around a compact source.
@@ -48,7 +48,7 @@ glm::dvec3 meanDirection(const FluxSums& cluster) {
 }  // namespace
 
 EnvironmentSplit splitEnvironment(const Environment& environment, int n, double rotationDegrees,
-                                  double intensity) {
+                                  double intensity, double maxSpread) {
     EnvironmentSplit split{{}, environment};
     float largest = 0;
     for (const glm::vec3& radiance : environment.radiance)
@@ -58,12 +58,12 @@ EnvironmentSplit splitEnvironment(const Environment& environment, int n, double 
     // The region grows as the threshold falls: bisection of its logarithm over six decades, after trying to
     // take all.
     float threshold = 0;
-    if (!isCompact(environment, 0, std::size_t(n))) {
+    if (!isCompact(environment, 0, std::size_t(n), maxSpread)) {
         float low = largest * 1e-6f;
         threshold = largest;
         for (int step = 0; step < 12; ++step) {
             const float middle = std::sqrt(low * threshold);
-            (isCompact(environment, middle, std::size_t(n)) ? threshold : low) = middle;
+            (isCompact(environment, middle, std::size_t(n), maxSpread) ? threshold : low) = middle;
         }
     }
     for (const FluxSums& cluster : clusterExcess(environment, threshold, std::size_t(n))) {

@@ -25,6 +25,6 @@ inline constexpr double kMaxSampleSpread = 0.2;
 // residual is nowhere negative. n ≤ 0: no samples, and the environment as it is; there are none either where
 // no part stands out.
 EnvironmentSplit splitEnvironment(const Environment& environment, int n, double rotationDegrees,
-                                  double intensity);
+                                  double intensity, double maxSpread = kMaxSampleSpread);
 
 }  // namespace cutis

@@ -2,14 +2,17 @@
 // scaled at run time.
 //
 // The includer declares, before this file,
-//   samplerCube environmentIrradiance, environmentRadiance;   (only the latter with ENVIRONMENT_SPECULAR_ONLY)
-//   EnvironmentSettingsData environment;                    (shared/scene.h)
-//   float environmentVisibility(vec3 direction);            (share of the light from there that arrives)
+//   samplerCube environmentIrradiance;              (not with ENVIRONMENT_SPECULAR_ONLY)
+//   samplerCubeArray environmentRadiance;
+//   EnvironmentSettingsData environment;            (shared/scene.h)
+//   EnvironmentSource environmentSources[];         (environment.sourceCount of them, shared/environment.h)
+//   float environmentVisibility(vec3 direction);    (share of the light from there that arrives)
 // and, for skin, ALBEDO_TABLE as lib/skin_specular.glsl wants it.
 #ifndef CUTIS_ENVIRONMENT_GLSL
 #define CUTIS_ENVIRONMENT_GLSL
 
 #include "shared/environment.h"
+#include "lib/metallic_roughness.glsl"
 #include "lib/sampling.glsl"
 #include "lib/skin_specular.glsl"
 
@@ -27,22 +30,47 @@ vec3 environmentIrradianceAt(vec3 n) {
 }
 #endif
 
-// Level of the radiance cube whose lobe has that σ in radians: between two levels by variance.
-float environmentLevel(float sigma) {
-    float x = max(log2(sigma / ENVIRONMENT_SPREAD), 0.0), whole = floor(x);
-    float low = ENVIRONMENT_SPREAD * exp2(whole), high = 2.0 * low;
-    if (whole < 1.0) {
-        whole = 0.0;
-        low = ENVIRONMENT_SPREAD_0;
-        high = 2.0 * ENVIRONMENT_SPREAD;
-    }
-    float f = (sigma * sigma - low * low) / (high * high - low * low);
-    return min(whole + clamp(f, 0.0, 1.0), float(ENVIRONMENT_LEVELS - 1u));
+// Number of the radiance lobe that has that σ in radians: between two lobes by variance.
+float environmentLobeNumber(float sigma) {
+    float variance = sigma * sigma;
+    const float first = 2.0 * ENVIRONMENT_SPREAD * ENVIRONMENT_SPREAD;
+    const float sharp = ENVIRONMENT_SPREAD_0 * ENVIRONMENT_SPREAD_0;
+    if (variance <= first) return clamp((variance - sharp) / (first - sharp), 0.0, 1.0);
+    float doublings = log2(variance / first), whole = floor(doublings);
+    return min(1.0 + whole + exp2(doublings - whole) - 1.0, float(ENVIRONMENT_LOBES - 1u));
 }
 
-// Radiance from around a direction, averaged over a lobe of σ radians; level 0 for the environment as it is.
-vec3 environmentRadianceAt(vec3 direction, float level) {
-    return textureLod(environmentRadiance, toEnvironment(direction), level).rgb * environment.intensity;
+// Radiance from around a direction, averaged over a lobe; `cubes` is ENVIRONMENT_ALL or ENVIRONMENT_SOFT.
+vec3 environmentRadianceAt(vec3 direction, float lobe, uint cubes) {
+    vec3 d = toEnvironment(direction);
+    uint below = uint(lobe), above = min(below + 1u, ENVIRONMENT_LOBES - 1u);
+    vec3 a = textureLod(environmentRadiance, vec4(d, float(cubes + (below & 1u))), float(below >> 1)).rgb;
+    vec3 b = textureLod(environmentRadiance, vec4(d, float(cubes + (above & 1u))), float(above >> 1)).rgb;
+    return mix(a, b, lobe - float(below)) * environment.intensity;
+}
+
+// A compact source of the environment as it stands in the world.
+struct SourceLight {
+    vec3 direction;  // unit, to the source
+    vec3 flux;       // irradiance of a surface that faces it, visibility included
+    float variance;  // of the angle to its centre, rad²
+};
+
+SourceLight environmentSource(uint i) {
+    EnvironmentSource source = environmentSources[i];
+    float len = length(source.mean);
+    vec3 d = source.mean / len;
+    d = vec3(environment.cosRotation * d.x + environment.sinRotation * d.z, d.y,
+             environment.cosRotation * d.z - environment.sinRotation * d.x);
+    return SourceLight(d, source.flux * (environment.intensity * environmentVisibility(d)), 2.0 - 2.0 * len);
+}
+
+// Surfaces rougher than this (m or alpha) see compact sources apart from the rest of the environment. The source's own
+// extent widens the lobe: an angle δ is a slope δ/2.
+const float kSoftRoughness = 0.03;
+
+float widenedRoughness(float roughness, SourceLight source) {
+    return min(sqrt(roughness * roughness + 0.25 * source.variance), 1.0);
 }
 
 // Reflected radiance of a GGX surface (glTF metallic-roughness): filtered importance sampling (Křivánek & Colbert 2008)
@@ -51,6 +79,8 @@ vec3 environmentSpecularGgx(vec3 n, vec3 v, float alpha, vec3 f0) {
     const int kTaps = 16;
     mat3 frame = frameAlong(n, v);
     float nv = max(dot(n, v), 1e-3), a2 = alpha * alpha;
+    bool soft = alpha > kSoftRoughness;
+    uint cubes = soft ? ENVIRONMENT_SOFT : ENVIRONMENT_ALL;
     vec3 sum = vec3(0.0);
     for (int k = 0; k < kTaps; ++k) {
         vec2 u = spiralPoint(k, kTaps);
@@ -66,18 +96,27 @@ vec3 environmentSpecularGgx(vec3 n, vec3 v, float alpha, vec3 f0) {
         float k2 = 1.0 + cosine * cosine * (a2 - 1.0);
         float pdf = a2 / (3.14159265358979 * k2 * k2) * cosine / (4.0 * vh);
         float sigma = min(sqrt(1.0 / (float(kTaps) * pdf * 4.0)), 0.5);
-        float x = 1.0 - vh, x2 = x * x;
-        vec3 fresnel = f0 + (1.0 - f0) * (x2 * x2 * x);
-        sum += fresnel * (weight * environmentVisibility(l)) * environmentRadianceAt(l, environmentLevel(sigma));
+        sum += schlick(f0, vh) * (weight * environmentVisibility(l)) *
+               environmentRadianceAt(l, environmentLobeNumber(sigma), cubes);
     }
-    return sum / float(kTaps);
+    sum /= float(kTaps);
+    for (uint i = 0u; soft && i < environment.sourceCount; ++i) {
+        SourceLight source = environmentSource(i);
+        float nl = dot(n, source.direction);
+        if (nl <= 0.0) continue;
+        vec3 h = normalize(source.direction + v);
+        sum += source.flux * (nl * ggxVisibilityDistribution(n, v, source.direction, h,
+                                                             widenedRoughness(alpha, source))) *
+               schlick(f0, dot(v, h));
+    }
+    return sum;
 }
 
 #ifdef ALBEDO_TABLE
 // Light through one lobe of the skin's table, `direction` in the columns of `frame`.
-vec3 environmentLobe(mat3 frame, vec3 direction, float level) {
+vec3 environmentThroughLobe(mat3 frame, vec3 direction, float lobe, uint cubes) {
     vec3 l = frame * direction;
-    return environmentVisibility(l) * environmentRadianceAt(l, level);
+    return environmentVisibility(l) * environmentRadianceAt(l, lobe, cubes);
 }
 
 // Reflected radiance of skin, ∫ L f_s (N·ω) dω: `m` rms slope, `s` specular scale, `row` of the table of roughness m.
@@ -91,24 +130,35 @@ vec3 environmentSpecularSkin(vec3 n, vec3 v, float m, float s, uint row) {
     uint j = min(uint(x), uint(LOBE_ROWS - 2));
     float f = x - float(j);
     uint at = row * uint(SKIN_TABLE_STRIDE) + uint(ALBEDO_ROW_SIZE) + j * uint(LOBE_ROW_SIZE);
+    bool soft = m > kSoftRoughness;
+    uint cubes = soft ? ENVIRONMENT_SOFT : ENVIRONMENT_ALL;
     vec3 sum = vec3(0.0);
     float total = 0.0;
     for (int k = 0; k < LOBES_IN_PLANE + LOBE_PAIRS; ++k) {
-        float lobe[LOBE_FLOATS];
+        float entry[LOBE_FLOATS];
         for (int i = 0; i < LOBE_FLOATS; ++i) {
-            lobe[i] = mix(ALBEDO_TABLE(at), ALBEDO_TABLE(at + uint(LOBE_ROW_SIZE)), f);
+            entry[i] = mix(ALBEDO_TABLE(at), ALBEDO_TABLE(at + uint(LOBE_ROW_SIZE)), f);
             ++at;
         }
-        vec3 direction = normalize(vec3(lobe[0], lobe[1], lobe[2]));
-        float level = environmentLevel(lobe[3]);
-        vec3 light = environmentLobe(frame, direction, level);
+        vec3 direction = normalize(vec3(entry[0], entry[1], entry[2]));
+        float lobe = environmentLobeNumber(entry[3]);
+        vec3 light = environmentThroughLobe(frame, direction, lobe, cubes);
         if (k >= LOBES_IN_PLANE) {
-            light = 0.5 * (light + environmentLobe(frame, vec3(direction.x, -direction.y, direction.z), level));
+            vec3 mirrored = vec3(direction.x, -direction.y, direction.z);
+            light = 0.5 * (light + environmentThroughLobe(frame, mirrored, lobe, cubes));
         }
-        sum += lobe[4] * light;
-        total += lobe[4];
+        sum += entry[4] * light;
+        total += entry[4];
     }
-    return sum * (min(s * directionalAlbedo(mu, row), 1.0) / total);
+    float albedo = directionalAlbedo(mu, row);
+    sum *= min(s * albedo, 1.0) / total;
+    float scale = clampedSpecularScale(s, albedo);
+    for (uint i = 0u; soft && i < environment.sourceCount; ++i) {
+        SourceLight source = environmentSource(i);
+        float lobe = kelemenSpecular(n, v, source.direction, widenedRoughness(m, source));
+        sum += source.flux * (scale * lobe * max(dot(n, source.direction), 0.0));
+    }
+    return sum;
 }
 #endif
 

@@ -146,7 +146,7 @@ struct ShadedPoint {
 struct EnvironmentSettingsData {
     float cosRotation, sinRotation;
     float intensity;
-    uint visibilityDirections;
+    uint sourceCount;  // EnvironmentSource that follow in the same buffer (shared/environment.h)
 };
 
 // A direction in which the environment's visibility is known, and the light that arrives from around it.

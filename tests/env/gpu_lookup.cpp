@@ -28,9 +28,13 @@ std::vector<glm::vec3> lookUp(const EnvironmentMaps& maps, const LookupSettings&
     const gpu::Buffer output(device, {.name = "results", .bytes = queries.size() * sizeof(glm::vec3)});
     const double angle = settings.rotation * std::numbers::pi / 180;
     const shared::EnvironmentSettingsData environment{float(std::cos(angle)), float(std::sin(angle)),
-                                                      float(settings.intensity), 0};
-    const gpu::Buffer settingsBuffer(device, {.name = "settings", .bytes = sizeof(environment)});
+                                                      float(settings.intensity),
+                                                      unsigned(maps.sources.size())};
+    const gpu::Buffer settingsBuffer(
+        device,
+        {.name = "settings", .bytes = sizeof(environment) + maps.sources.size() * sizeof(maps.sources[0])});
     commands.upload(settingsBuffer, std::as_bytes(std::span(&environment, 1)));
+    if (!maps.sources.empty()) commands.upload(settingsBuffer, maps.sources, sizeof(environment));
     std::vector<float> row = skin::directionalAlbedoRow(settings.roughness);
     const std::vector<float> lobes = skin::specularLobeTable(settings.roughness);
     row.insert(row.end(), lobes.begin(), lobes.end());

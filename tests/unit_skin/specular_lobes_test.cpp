@@ -32,39 +32,7 @@ double lobeDensity(const SpecularLobe& lobe, const dvec3& w) {
 
 class SpecularLobes : public testing::TestWithParam<double> {};
 
-// Relative L2 between the sum of lobes and f_s (N·ω), over a sphere that is seen from afar and all directions
-// of one light of no extent. An environment is smoother than that (tests/env).
-TEST_P(SpecularLobes, sumMatchesTheLobe) {
-    const double m = GetParam();
-    const auto rows = fitSpecularLobes(m);
-    ASSERT_EQ(int(rows.size()), LOBE_ROWS);
-    double difference = 0, exact = 0;
-    for (int j = 1; j < LOBE_ROWS; ++j) {
-        const double t = double(j) / (LOBE_ROWS - 1), mu = t * t, sine = std::sqrt(1 - mu * mu);
-        const dvec3 n(0, 0, 1), v(sine, 0, mu);
-        const double albedo = directionalAlbedo(mu, m);
-        const double seen = t * t * t;  // μ dμ, the area of the sphere's disc
-        // Around the mirror direction, finer towards it: cosθ = 1 - u² (1 - cos of the reach).
-        const double reach = 1 - std::cos(std::min(kPi, 8 * m));
-        const int rings = 300, spokes = 300;
-        for (int i = 0; i < rings; ++i)
-            for (int k = 0; k < spokes; ++k) {
-                const double u = (i + 0.5) / rings, c = 1 - u * u * reach, r = std::sqrt(1 - c * c);
-                const double phi = 2 * kPi * (k + 0.5) / spokes;
-                const dvec3 w(r * std::cos(phi), r * std::sin(phi), c);  // frame of the mirror direction
-                const dvec3 world(w.x * mu - w.z * sine, w.y, w.x * sine + w.z * mu);
-                const double f = kelemenSpecular(n, v, world, m) * std::max(world.z, 0.0);
-                double sum = 0;
-                for (const SpecularLobe& lobe : rows[j]) sum += albedo * lobeDensity(lobe, w);
-                difference += seen * (sum - f) * (sum - f) * u;
-                exact += seen * f * f * u;
-            }
-    }
-    const double error = std::sqrt(difference / exact);
-    RecordProperty("error", std::to_string(error));
-    EXPECT_LE(error, m <= 0.3 ? 0.08 : 0.16);
-}
-
+// How well the lobes stand for f_s under an environment is measured in tests/env/specular_test.cpp.
 TEST_P(SpecularLobes, areWellFormed) {
     for (const auto& row : fitSpecularLobes(GetParam())) {
         ASSERT_EQ(int(row.size()), LOBES_IN_PLANE + LOBE_PAIRS);

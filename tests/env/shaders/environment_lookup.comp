@@ -2,6 +2,7 @@
 // Evaluates lib/environment.glsl for a list of normals and views.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "shared/environment.h"
 #include "shared/scene.h"
 
 layout(local_size_x = 64) in;
@@ -12,10 +13,13 @@ struct Query {
 
 layout(binding = 0, scalar) readonly buffer QueryBuffer { Query queries[]; };
 layout(binding = 1, scalar) writeonly buffer ResultBuffer { vec3 results[]; };
-layout(binding = 2, scalar) readonly buffer EnvironmentBuffer { EnvironmentSettingsData environment; };
+layout(binding = 2, scalar) readonly buffer EnvironmentBuffer {
+    EnvironmentSettingsData environment;
+    EnvironmentSource environmentSources[];
+};
 layout(binding = 3, scalar) readonly buffer AlbedoTableBuffer { float albedoTable[]; };
 layout(binding = 4) uniform samplerCube environmentIrradiance;
-layout(binding = 5) uniform samplerCube environmentRadiance;
+layout(binding = 5) uniform samplerCubeArray environmentRadiance;
 layout(binding = 6) uniform samplerCubeArray environmentMatte;
 #define ALBEDO_TABLE(i) albedoTable[i]
 float environmentVisibility(vec3 direction) {
@@ -44,7 +48,7 @@ void main() {
     } else if (push.what == 3u) {
         result = environmentSpecularGgx(n, v, push.roughness, vec3(push.scale));
     } else {
-        result = environmentRadianceAt(n, environmentLevel(push.roughness));
+        result = environmentRadianceAt(n, environmentLobeNumber(push.roughness), ENVIRONMENT_ALL);
     }
     results[i] = result;
 }
