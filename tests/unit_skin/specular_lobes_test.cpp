@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "renderer/skin/specular.h"
 #include "shaders/shared/albedo_table.h"
@@ -15,18 +14,6 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-double lobeDensity(const SpecularLobe& lobe, const dvec3& w) {
-    const double variance = lobe.sigma * lobe.sigma;
-    const auto at = [&](const dvec3& d) {
-        return std::exp((glm::dot(d, w) - 1) / variance) /
-               (2 * kPi * variance * (1 - std::exp(-2 / variance)));
-    };
-    if (!lobe.paired) return lobe.weight * at(lobe.direction);
-    return lobe.weight / 2 *
-           (at(lobe.direction) + at({lobe.direction.x, -lobe.direction.y, lobe.direction.z}));
-}
 
 }  // namespace
 
