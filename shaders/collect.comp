@@ -31,14 +31,13 @@ layout(push_constant, scalar) uniform Push {
 
 const int MAX_SAMPLES = 16;
 
+ivec2 cellOf(int s) { return ivec2(s % push.supersampling, s / push.supersampling); }
+
 uint triangleAt(ivec2 pixel, int s, int layer) {
-    ivec2 sub = ivec2(s % push.supersampling, s / push.supersampling);
-    return texelFetch(triangles, ivec3(pixel * push.supersampling + sub, layer), 0).x;
+    return texelFetch(triangles, ivec3(pixel * push.supersampling + cellOf(s), layer), 0).x;
 }
 
-vec2 placeOf(int s) {
-    return (vec2(s % push.supersampling, s / push.supersampling) + 0.5) / float(push.supersampling);
-}
+vec2 placeOf(int s) { return (vec2(cellOf(s)) + 0.5) / float(push.supersampling); }
 
 struct Facet {
     vec3 corner, normal;
@@ -73,7 +72,7 @@ void append(uint index, ShadingPoint point, bool data) {
 void collectGroups(ivec2 pixel, uint packedPixel) {
     int total = push.supersampling * push.supersampling;
     uint leader[MAX_SAMPLES];
-    vec2 place[MAX_SAMPLES];
+    ivec2 place[MAX_SAMPLES];  // sums, in samples
     int size[MAX_SAMPLES];
     int group[MAX_SAMPLES];  // of each sample; -1: sees nothing
     uint seen[MAX_SAMPLES];  // by each sample
@@ -86,24 +85,26 @@ void collectGroups(ivec2 pixel, uint packedPixel) {
         while (g < groups && !alike(leader[g], id - 1u)) ++g;
         if (g == groups) {
             leader[g] = id - 1u;
-            place[g] = vec2(0.0);
+            place[g] = ivec2(0);
             size[g] = 0;
             ++groups;
         }
         group[s] = g;
         seen[s] = id - 1u;
-        place[g] += placeOf(s);
+        place[g] += cellOf(s);
         ++size[g];
         if (size[g] > size[largest]) largest = g;
     }
     uint first = groups > 0 ? atomicAdd(pointCount, uint(groups)) : 0u;
     for (int g = 0; g < groups; ++g) {
-        // Of its triangles the group is shaded on the one that is seen nearest to its mean place.
-        vec2 mean = place[g] / float(size[g]);
-        float nearest = 2.0;
+        // Of its triangles the group is shaded on the one that is seen nearest to its mean place: in whole numbers, so
+        // that ties are broken alike on every device.
+        vec2 mean = (vec2(place[g]) / float(size[g]) + 0.5) / float(push.supersampling);
+        int nearest = 0x7fffffff;
         for (int s = 0; s < total; ++s) {
-            float apart = distance(placeOf(s), mean);
-            if (group[s] == g && apart < nearest) nearest = apart, leader[g] = seen[s];
+            ivec2 apart = cellOf(s) * size[g] - place[g];
+            int squared = apart.x * apart.x + apart.y * apart.y;
+            if (group[s] == g && squared < nearest) nearest = squared, leader[g] = seen[s];
         }
         append(first + uint(g),
                ShadingPoint(leader[g], packedPixel, packUnorm2x16(mean),

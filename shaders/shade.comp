@@ -248,7 +248,7 @@ Shade shadeAt(uint triangleIndex, vec2 pixel) {
 #endif
     if ((TEXTURE_SLOTS & SLOT_NORMAL) != 0u && material.normalTexture.group >= 0) {
         vec4 tangent = interpolate(w, va.tangent, vb.tangent, vc.tangent);
-        n = mappedNormal(smoothNormal, back ? -tangent : tangent, sampleMaterial(material.normalTexture, uv).xyz,
+        n = mappedNormal(smoothNormal, back ? -tangent : tangent, sampleMaterial(material.normalTexture, uv).xy,
                          material.normalScale);
     }
 #ifndef SKIN

@@ -87,7 +87,7 @@ void main() {
     if ((TEXTURE_SLOTS & SLOT_BASE_COLOR) != 0u && material.baseColorTexture.group >= 0) rho *= sampleMaterial(material.baseColorTexture, uv).rgb;
     if ((TEXTURE_SLOTS & SLOT_NORMAL) != 0u && material.normalTexture.group >= 0) {
         vec4 tangent = interpolate(w, va.tangent, vb.tangent, vc.tangent);
-        mapped = mappedNormal(n, tangent, sampleMaterial(material.normalTexture, uv).xyz, material.normalScale);
+        mapped = mappedNormal(n, tangent, sampleMaterial(material.normalTexture, uv).xy, material.normalScale);
     }
 #endif
     imageStore(position, texel, vec4(p, float(drawIndex + 1u)));

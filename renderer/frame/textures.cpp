@@ -17,11 +17,10 @@ namespace {
 
 struct GroupKey {
     int width, height;
-    TexelFormat format;
-    bool srgb;
+    TexelEncoding encoding;
     Sampler sampler;
     auto tie() const {
-        return std::tuple(width, height, format, srgb, sampler.wrapU, sampler.wrapV, sampler.nearest, sampler.mipmapped);
+        return std::tuple(width, height, encoding, sampler.wrapU, sampler.wrapV, sampler.nearest, sampler.mipmapped);
     }
     bool operator<(const GroupKey& other) const { return tie() < other.tie(); }
 };
@@ -35,25 +34,36 @@ int roundedSize(int size, Rounding rounding, int largest) {
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(size)));
 }
 
-std::map<GroupKey, std::vector<int>> groupTextures(const Scene& scene, const std::vector<bool>& used,
+TexelEncoding encodingOf(const Scene& scene, std::size_t texture, TextureUse use) {
+    if (use == TextureUse::normals) return TexelEncoding::normal2;
+    if (scene.images[scene.textures[texture].image].format == TexelFormat::rgba16f) return TexelEncoding::half4;
+    return scene.textures[texture].srgb ? TexelEncoding::srgb8 : TexelEncoding::linear8;
+}
+
+std::map<GroupKey, std::vector<int>> groupTextures(const Scene& scene, const std::vector<TextureUse>& uses,
                                                    Rounding rounding) {
     int largest = 1;
     for (const Image& image : scene.images) largest = std::max({largest, image.width, image.height});
     std::map<GroupKey, std::vector<int>> groups;
     for (std::size_t t = 0; t < scene.textures.size(); ++t) {
-        if (!used[t]) continue;
+        if (uses[t] == TextureUse::none) continue;
         const Texture& texture = scene.textures[t];
         const Image& image = scene.images[texture.image];
-        groups[{roundedSize(image.width, rounding, largest), roundedSize(image.height, rounding, largest), image.format,
-                texture.srgb, texture.sampler}]
+        groups[{roundedSize(image.width, rounding, largest), roundedSize(image.height, rounding, largest),
+                encodingOf(scene, t, uses[t]), texture.sampler}]
             .push_back(static_cast<int>(t));
     }
     return groups;
 }
 
 VkFormat formatOf(const GroupKey& key) {
-    if (key.format == TexelFormat::rgba16f) return VK_FORMAT_R16G16B16A16_SFLOAT;
-    return key.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
+    switch (key.encoding) {
+        case TexelEncoding::half4: return VK_FORMAT_R16G16B16A16_SFLOAT;
+        case TexelEncoding::normal2: return VK_FORMAT_R16G16_SFLOAT;
+        case TexelEncoding::srgb8: return VK_FORMAT_R8G8B8A8_SRGB;
+        case TexelEncoding::linear8: break;
+    }
+    return VK_FORMAT_R8G8B8A8_UNORM;
 }
 
 VkSamplerAddressMode addressMode(Wrap wrap) {
@@ -66,28 +76,34 @@ VkSamplerAddressMode addressMode(Wrap wrap) {
 }
 
 // Nearest texels of another size: only reached when a scene has more kinds of textures than shaders have samplers.
-std::vector<std::byte> resample(const Image& image, int width, int height) {
-    const std::size_t texel = image.format == TexelFormat::rgba8 ? 4 : 8;
-    std::vector<std::byte> result(texel * width * height);
-    for (int y = 0; y < height; ++y) {
-        const std::size_t sourceRow = std::size_t(y) * image.height / height;
-        for (int x = 0; x < width; ++x) {
-            const std::size_t source = sourceRow * image.width + std::size_t(x) * image.width / width;
-            std::memcpy(&result[(std::size_t(y) * width + x) * texel], &image.texels[source * texel], texel);
+std::vector<std::byte> resample(const std::vector<std::byte>& texels, const Image& image, const GroupKey& key) {
+    const std::size_t bytes = bytesPerTexel(key.encoding);
+    std::vector<std::byte> result(bytes * key.width * key.height);
+    for (int y = 0; y < key.height; ++y) {
+        const std::size_t sourceRow = std::size_t(y) * image.height / key.height;
+        for (int x = 0; x < key.width; ++x) {
+            const std::size_t source = sourceRow * image.width + std::size_t(x) * image.width / key.width;
+            std::memcpy(&result[(std::size_t(y) * key.width + x) * bytes], &texels[source * bytes], bytes);
         }
     }
     return result;
 }
 
+std::vector<std::byte> texelsOf(const Image& image, const GroupKey& key) {
+    std::vector<std::byte> texels = key.encoding == TexelEncoding::normal2 ? encodeNormals(image) : image.texels;
+    if (image.width == key.width && image.height == key.height) return texels;
+    return resample(texels, image, key);
+}
+
 }  // namespace
 
 TextureArrays uploadTextures(gpu::Device& device, gpu::Commands& commands, const Scene& scene,
-                             const std::vector<bool>& used) {
+                             const std::vector<TextureUse>& uses) {
     TextureArrays arrays;
     arrays.places.resize(scene.textures.size());
     std::map<GroupKey, std::vector<int>> groups;
     for (Rounding rounding : {Rounding::none, Rounding::powerOfTwo, Rounding::largest}) {
-        groups = groupTextures(scene, used, rounding);
+        groups = groupTextures(scene, uses, rounding);
         if (groups.size() <= shared::MAX_TEXTURE_GROUPS) break;
     }
     if (groups.size() > shared::MAX_TEXTURE_GROUPS) {
@@ -108,13 +124,11 @@ TextureArrays uploadTextures(gpu::Device& device, gpu::Commands& commands, const
         for (std::size_t layer = 0; layer < textures.size(); ++layer) {
             const Image& image = scene.images[scene.textures[textures[layer]].image];
             const gpu::ImageView target = array.layer(static_cast<std::uint32_t>(layer));
-            std::vector<std::byte> texels = image.width == key.width && image.height == key.height
-                                                ? image.texels
-                                                : resample(image, key.width, key.height);
+            std::vector<std::byte> texels = texelsOf(image, key);
             int levelWidth = key.width, levelHeight = key.height;
             for (std::uint32_t mip = 0; mip < array.desc().mips; ++mip) {
                 if (mip > 0) {
-                    texels = halveTexels(texels, levelWidth, levelHeight, key.format, key.srgb);
+                    texels = halveTexels(texels, levelWidth, levelHeight, key.encoding);
                     levelWidth = std::max(1, levelWidth / 2);
                     levelHeight = std::max(1, levelHeight / 2);
                 }

@@ -19,8 +19,12 @@ struct TextureArrays {
     std::vector<Place> places;  // per Scene::textures
 };
 
-// Uploads the textures that `used` marks. When there are more kinds than arrays, images are resampled to fewer sizes.
+// What materials sample a texture for. Normals alone are stored as such (TexelEncoding::normal2).
+enum class TextureUse { none, values, normals };
+
+// Uploads the textures that `uses` (one a texture of the scene) says are sampled. When there are more kinds than arrays,
+// images are resampled to fewer sizes.
 TextureArrays uploadTextures(gpu::Device& device, gpu::Commands& commands, const Scene& scene,
-                             const std::vector<bool>& used);
+                             const std::vector<TextureUse>& uses);
 
 }  // namespace cutis

@@ -34,16 +34,19 @@ constexpr TextureSlot Material::*kSlots[] = {&Material::baseColorTexture, &Mater
                                              &Material::emissiveTexture};
 
 // Textures that some drawn material samples. Skin has its own roughness, so its metallic-roughness map never is.
-std::vector<bool> usedTextures(const Scene& scene, const Geometry& geometry) {
-    std::vector<bool> used(scene.textures.size(), false);
+std::vector<TextureUse> textureUses(const Scene& scene, const Geometry& geometry) {
+    std::vector<TextureUse> uses(scene.textures.size(), TextureUse::none);
     for (const GeometryDraw& draw : geometry.draws) {
         const Material& material = scene.materials[draw.material];
         for (const auto slot : kSlots) {
             if (draw.skin && slot == &Material::metallicRoughnessTexture) continue;
-            if (material.*slot) used[(material.*slot).texture] = true;
+            if (!(material.*slot)) continue;
+            TextureUse& use = uses[(material.*slot).texture];
+            const bool normals = slot == &Material::normalTexture && use != TextureUse::values;
+            use = normals ? TextureUse::normals : TextureUse::values;
         }
     }
-    return used;
+    return uses;
 }
 
 std::uint32_t usedSlots(const Scene& scene, const Geometry& geometry) {
@@ -186,7 +189,7 @@ UploadedScene uploadScene(gpu::Device& device, gpu::Commands& commands, const Sc
                           const Atlas& atlas, int gaussians) {
     UploadedScene uploaded;
     SceneBuffers& buffers = uploaded.buffers;
-    TextureArrays arrays = uploadTextures(device, commands, scene, usedTextures(scene, geometry));
+    TextureArrays arrays = uploadTextures(device, commands, scene, textureUses(scene, geometry));
     uploadMaterials(device, commands, scene, geometry, arrays, uploaded);
     uploadCharts(device, commands, scene, atlas, gaussians, uploaded);
     buffers.textureGroups = static_cast<std::uint32_t>(arrays.images.size());

@@ -34,10 +34,11 @@ vec4 sampleMaterial(TextureRef ref, SurfaceUv s) {
     return sampleTextureArray(uint(ref.group), at, gx, gy);
 }
 
-// A tangent-space normal map's normal in world space (glTF: +X tangent, +Y bitangent, +Z normal).
-vec3 mappedNormal(vec3 n, vec4 tangent, vec3 texel, float scale) {
-    vec3 local = texel * 2.0 - 1.0;
-    local.xy *= scale;
+// A tangent-space normal map's normal in world space (glTF: +X tangent, +Y bitangent, +Z normal). Maps hold unit
+// vectors, and the device their x and y alone.
+vec3 mappedNormal(vec3 n, vec4 tangent, vec2 texel, float scale) {
+    vec2 xy = texel * 2.0 - 1.0;
+    vec3 local = vec3(xy * scale, sqrt(max(1.0 - dot(xy, xy), 0.0)));
     vec3 t = tangent.xyz - n * dot(n, tangent.xyz);
     float len = length(t);
     if (!(len > 1e-6)) return n;
