@@ -1,9 +1,9 @@
 #version 460
 // What a light sample meets first. ENTRY: its place in the atlas as two 16-bit fractions, all bits set where it is not
-// SKIN. MASKED: nothing where the material is cut out.
+// SKIN. MASKED: nothing where the material is cut out, and at that share of texels which it lets through.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// features: ENTRY SKIN(ENTRY) MASKED
+// features: ENTRY SKIN(ENTRY) MASKED TEXTURED(MASKED)
 #include "shared/scene.h"
 
 #ifdef MASKED
@@ -14,9 +14,12 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 layout(binding = 4, scalar) readonly buffer MaterialBuffer { Material materials[]; };
+#ifdef TEXTURED
 layout(binding = 5) uniform sampler2DArray materialTextures[MAX_TEXTURE_GROUPS];
+#endif
 layout(location = 0) in vec4 inUv;
 layout(location = 1) in float inAlpha;
+layout(location = 3) flat in uint inSurface;  // a vertex of the triangle
 #include "lib/alpha_mask.glsl"
 #endif
 #ifdef SKIN
@@ -28,7 +31,11 @@ layout(location = 0) out uint outEntry;
 
 void main() {
 #ifdef MASKED
-    if (cutOut(push.material, inUv.xy, inUv.zw, inAlpha)) discard;
+    // The pattern differs from view to view as well: the samples of an area light average it further.
+    float threshold = (materials[push.material].flags & MATERIAL_BLEND) != 0u
+                          ? coverageThreshold(uvec2(gl_FragCoord.xy), hash(push.view) ^ inSurface)
+                          : materials[push.material].alphaCutoff;
+    if (surfaceAlpha(push.material, inUv, inAlpha) < threshold) discard;
 #endif
 #ifdef ENTRY
 #ifdef SKIN

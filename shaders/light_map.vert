@@ -11,6 +11,7 @@ layout(binding = 1, scalar) readonly buffer LightViewBuffer { LightView lightVie
 layout(binding = 2, scalar) readonly buffer AttributeBuffer { VertexAttributes attributes[]; };
 layout(location = 0) out vec4 outUv;
 layout(location = 1) out float outAlpha;
+layout(location = 3) flat out uint outSurface;
 #endif
 #ifdef SKIN
 layout(binding = 3, scalar) readonly buffer AtlasVertexBuffer { AtlasVertex atlasVertices[]; };
@@ -27,6 +28,7 @@ void main() {
 #ifdef MASKED
     outUv = vec4(attributes[gl_VertexIndex].uv0, attributes[gl_VertexIndex].uv1);
     outAlpha = attributes[gl_VertexIndex].color.a;
+    outSurface = gl_VertexIndex;
 #endif
 #ifdef SKIN
     outAtlas = atlasVertices[gl_VertexIndex].texel * push.texelsToUnit;

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
-// features: MASKED PEEL
+// features: MASKED TEXTURED(MASKED) PEEL
 #include "shared/scene.h"
 
 layout(push_constant, scalar) uniform Push {
@@ -14,7 +14,9 @@ layout(push_constant, scalar) uniform Push {
 
 #ifdef MASKED
 layout(binding = 3, scalar) readonly buffer MaterialBuffer { Material materials[]; };
+#ifdef TEXTURED
 layout(binding = 4) uniform sampler2DArray materialTextures[MAX_TEXTURE_GROUPS];
+#endif
 layout(location = 0) in vec4 inUv;
 layout(location = 1) in float inAlpha;
 #include "lib/alpha_mask.glsl"
@@ -34,7 +36,7 @@ void main() {
     }
 #endif
 #ifdef MASKED
-    if (cutOut(push.material, inUv.xy, inUv.zw, inAlpha)) discard;
+    if (cutOut(push.material, inUv, inAlpha)) discard;
 #endif
     outTriangle = push.firstTriangle + uint(gl_PrimitiveID) + 1u;
 }

@@ -159,7 +159,7 @@ void uploadCharts(gpu::Device& device, gpu::Commands& commands, const Scene& sce
     uploaded.buffers.gaussians = uploadBuffer(device, commands, "gaussians", terms);
 }
 
-std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry, bool textured) {
+std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry) {
     std::vector<DrawRange> ranges;
     for (const GeometryDraw& draw : geometry.draws) {
         const Material& material = scene.materials[draw.material];
@@ -172,10 +172,10 @@ std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry, 
         range.skin = draw.skin;
         range.blended = material.alphaMode == AlphaMode::blend;
         range.doubleSided = material.doubleSided;
-        range.masked = material.alphaMode != AlphaMode::opaque && textured;
-        const bool invisible = material.alphaMode != AlphaMode::opaque && material.baseColor.a < material.alphaCutoff;
-        range.castsShadow = !invisible;
-        if (invisible && material.alphaMode == AlphaMode::mask) continue;
+        range.masked = material.alphaMode != AlphaMode::opaque;
+        // Textures and vertex colours only lower alpha.
+        const float needed = material.alphaMode == AlphaMode::mask ? material.alphaCutoff : 1.0f / 255;
+        if (range.masked && material.baseColor.a < needed) continue;
         range.boundsMin = glm::vec3(draw.bounds.min - geometry.origin);
         range.boundsMax = glm::vec3(draw.bounds.max - geometry.origin);
         ranges.push_back(range);
@@ -201,7 +201,7 @@ UploadedScene uploadScene(gpu::Device& device, gpu::Commands& commands, const Sc
     buffers.attributes = uploadBuffer(device, commands, "attributes", geometry.attributes);
     buffers.triangleDraws = uploadBuffer(device, commands, "triangle draws", geometry.triangleDraws);
     buffers.draws = uploadBuffer(device, commands, "draws", geometry.drawInfos);
-    buffers.ranges = makeRanges(scene, geometry, buffers.textured());
+    buffers.ranges = makeRanges(scene, geometry);
     if (!atlas.charts.empty()) {
         buffers.atlasVertices = uploadBuffer(device, commands, "atlas vertices", atlas.vertices);
         std::vector<std::uint32_t> all(geometry.skinTriangleCount);

@@ -72,15 +72,18 @@ void drawRange(gpu::Device& device, gpu::Commands& commands, const SceneBuffers&
         fragment += "+MASKED";
         bindings.push_back({"AttributeBuffer", scene.attributes});
         bindings.push_back({"MaterialBuffer", scene.materials});
+    }
+    gpu::Specialization constants;
+    if (range.masked && !range.blended && scene.textured()) {
+        fragment += "+TEXTURED";
         bindings.push_back({"materialTextures", scene.materialTextures});
+        constants = {{0, scene.textureGroups}};
     }
     if (peel) {
         fragment += "+PEEL";
         bindings.push_back({"opaqueDepth", *peel->opaque});
         bindings.push_back({"previousDepth", *peel->previous});
     }
-    gpu::Specialization constants;
-    if (range.masked && !range.blended) constants.push_back({0, scene.textureGroups});
     const gpu::DrawCall call{.first = range.firstIndex, .count = range.indexCount};
     commands.draw(device.program({vertex, fragment}, state, constants), bindings, ViewPush{range.firstIndex / 3, range.material},
                   {&call, 1}, &scene.indices);

@@ -27,7 +27,7 @@ std::vector<Batch> batchesFor(const SceneBuffers& scene, const LightMapTargets& 
                               const shared::LightView& view) {
     std::vector<Batch> batches;
     for (const DrawRange& range : scene.ranges) {
-        if (!range.castsShadow || !reaches(view.worldToClip, range.boundsMin, range.boundsMax)) continue;
+        if (!reaches(view.worldToClip, range.boundsMin, range.boundsMax)) continue;
         const bool skin = targets.entry && range.skin;
         const std::uint32_t first = targets.proxies ? range.firstProxyIndex : range.firstIndex;
         const std::uint32_t count = targets.proxies ? range.proxyIndexCount : range.indexCount;
@@ -50,8 +50,9 @@ std::vector<Batch> batchesFor(const SceneBuffers& scene, const LightMapTargets& 
     return batches;
 }
 
-void drawBatch(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene, const LightMapTargets& targets,
-               const gpu::RasterState& state, std::uint32_t view, const Batch& batch) {
+void drawBatch(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+               const LightMapTargets& targets, const gpu::RasterState& state, std::uint32_t view,
+               const Batch& batch) {
     std::string vertex = "light_map.vert", fragment = "light_map.frag";
     gpu::Bindings bindings{{"PositionBuffer", scene.positions}, {"LightViewBuffer", *targets.viewBuffer}};
     if (targets.entry) fragment += "+ENTRY";
@@ -65,13 +66,18 @@ void drawBatch(gpu::Device& device, gpu::Commands& commands, const SceneBuffers&
         fragment += "+MASKED";
         bindings.push_back({"AttributeBuffer", scene.attributes});
         bindings.push_back({"MaterialBuffer", scene.materials});
+    }
+    gpu::Specialization constants;
+    if (batch.masked && scene.textured()) {
+        fragment += "+TEXTURED";
         bindings.push_back({"materialTextures", scene.materialTextures});
+        constants = {{0, scene.textureGroups}};
     }
     std::vector<std::string> shaders{vertex};
     if (targets.entry || batch.masked) shaders.push_back(fragment);
-    commands.draw(device.program(shaders, state, batch.masked ? gpu::Specialization{{0, scene.textureGroups}} : gpu::Specialization{}), bindings,
-                  MapPush{view, 1.0f / static_cast<float>(std::max(targets.atlasSize, 1)), batch.material}, batch.calls,
-                  &scene.indices);
+    commands.draw(device.program(shaders, state, constants), bindings,
+                  MapPush{view, 1.0f / static_cast<float>(std::max(targets.atlasSize, 1)), batch.material},
+                  batch.calls, &scene.indices);
 }
 
 }  // namespace
@@ -87,7 +93,8 @@ void recordLightMaps(gpu::Device& device, gpu::Commands& commands, const SceneBu
         const shared::LightView& view = targets.views[v];
         gpu::RenderTargets render;
         render.depth = {targets.depth->layer(view.layer), gpu::ClearValue::depth(1)};
-        if (translucent) render.colors = {{targets.entry->layer(view.layer), gpu::ClearValue::integers(0xffffffffu)}};
+        if (translucent)
+            render.colors = {{targets.entry->layer(view.layer), gpu::ClearValue::integers(0xffffffffu)}};
         commands.beginRendering(render);
         for (const Batch& batch : batchesFor(scene, targets, view)) {
             drawBatch(device, commands, scene, targets, state, v, batch);

@@ -20,8 +20,7 @@ struct DrawRange {
     std::uint32_t firstProxyIndex = 0, proxyIndexCount = 0;  // a coarser form, for the sky's shadows
     std::uint32_t material = 0;
     bool skin = false;              // takes light in
-    bool castsShadow = true;
-    bool masked = false;            // its material's alpha cuts it out (for lights, blended ones too)
+    bool masked = false;            // its material's alpha cuts it out or lets light through
     bool blended = false;           // seen through
     bool doubleSided = false;
     glm::vec3 boundsMin{0}, boundsMax{0};  // metres from the scene's origin

@@ -11,9 +11,14 @@
 namespace cutis {
 namespace {
 
+// Negative values that carry less than this part of the light are left by the resampling that made the file,
+// and mended without a word.
+constexpr double kNegligible = 1e-4;
+
 struct Findings {
     std::size_t nan = 0, negative = 0, infinite = 0;
-    float largest = 0;  // finite
+    double light = 0, missing = 0;  // sums of the finite values above and below 0
+    float largest = 0;              // finite
 };
 
 Findings examine(const std::vector<glm::vec3>& radiance) {
@@ -25,9 +30,11 @@ Findings examine(const std::vector<glm::vec3>& radiance) {
                 ++found.nan;
             } else if (v < 0) {
                 ++found.negative;
+                found.missing -= v;
             } else if (std::isinf(v)) {
                 ++found.infinite;
             } else {
+                found.light += v;
                 found.largest = std::max(found.largest, v);
             }
         }
@@ -46,9 +53,16 @@ void sanitizeEnvironment(Environment& environment) {
             texel[c] = texel[c] > 0 ? std::min(texel[c], found.largest) : 0.f;
         }
     }
-    warn("environment " + environment.name + ": " + std::to_string(found.nan) + " NaN and " +
-         std::to_string(found.negative) + " negative values become 0, " + std::to_string(found.infinite) +
-         " infinite ones the largest that is finite");
+    std::string mended;
+    const auto add = [&](std::size_t count, const char* what, const char* becomes) {
+        if (count == 0) return;
+        mended += (mended.empty() ? "" : ", ") + std::to_string(count) + " " + what +
+                  (count == 1 ? " value becomes " : " values become ") + becomes;
+    };
+    add(found.nan, "NaN", "0");
+    if (found.missing > kNegligible * found.light) add(found.negative, "negative", "0");
+    add(found.infinite, "infinite", "the largest that is finite");
+    if (!mended.empty()) warn("environment " + environment.name + ": " + mended);
 }
 
 Environment loadEnvironment(const std::filesystem::path& path) {

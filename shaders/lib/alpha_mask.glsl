@@ -1,26 +1,53 @@
 // Alpha of a material in raster shaders: what a mask cuts out, and what hair and lashes let through to lights.
-// The includer declares materials[], materialTextures[] and the two texture coordinates.
+// The includer declares materials[] and, with TEXTURED, materialTextures[].
 #ifndef CUTIS_ALPHA_MASK_GLSL
 #define CUTIS_ALPHA_MASK_GLSL
 
+#ifdef TEXTURED
 #define CUTIS_TEXTURE_ARRAY materialTextures
 #include "lib/texture_array.glsl"
+#endif
 
-// True where the material has no surface.
-bool cutOut(uint index, vec2 uv0, vec2 uv1, float vertexAlpha) {
-    // Before any branch: within one, a software device may hold nothing for the pixels of a quad outside the triangle.
-    vec4 dx = vec4(dFdx(uv0), dFdx(uv1)), dy = vec4(dFdy(uv0), dFdy(uv1));
-    TextureRef ref = materials[index].baseColorTexture;
+// uv: both texture coordinates; vertexAlpha: of the vertex colour.
+float surfaceAlpha(uint index, vec4 uv, float vertexAlpha) {
     float alpha = materials[index].baseColor.a * vertexAlpha;
+#ifdef TEXTURED
+    // Before any branch: within one, a software device holds nothing for the pixels of a quad outside the triangle.
+    vec4 dx = dFdx(uv), dy = dFdy(uv);
+    TextureRef ref = materials[index].baseColorTexture;
     if (ref.group >= 0) {
         bool second = ref.texCoord == 1;
-        vec3 uv = vec3(second ? uv1 : uv0, 1.0);
+        vec3 place = vec3(second ? uv.zw : uv.xy, 1.0);
         vec2 ux = second ? dx.zw : dx.xy, uy = second ? dy.zw : dy.xy;
-        vec3 at = vec3(dot(ref.u, uv), dot(ref.v, uv), float(ref.layer));
-        vec2 ax = vec2(dot(ref.u.xy, ux), dot(ref.v.xy, ux)), ay = vec2(dot(ref.u.xy, uy), dot(ref.v.xy, uy));
-        alpha *= sampleTextureArray(uint(ref.group), at, ax, ay).a;
+        alpha *= sampleTextureArray(uint(ref.group), vec3(dot(ref.u, place), dot(ref.v, place), float(ref.layer)),
+                                    vec2(dot(ref.u.xy, ux), dot(ref.v.xy, ux)),
+                                    vec2(dot(ref.u.xy, uy), dot(ref.v.xy, uy))).a;
     }
-    return alpha < materials[index].alphaCutoff;
+#endif
+    return alpha;
+}
+
+// True where the material has no surface.
+bool cutOut(uint index, vec4 uv, float vertexAlpha) {
+    return surfaceAlpha(index, uv, vertexAlpha) < materials[index].alphaCutoff;
+}
+
+uint hash(uint x) {  // PCG (O'Neill 2014)
+    x = x * 747796405u + 2891336453u;
+    x = ((x >> ((x >> 28u) + 4u)) ^ x) * 277803737u;
+    return x >> 22u ^ x;
+}
+
+// For a surface that lets a part of the light through: the alpha from which it stops light at this texel of a map. Each
+// square of four texels holds one threshold in each quarter of [0,1], so that averages over a few texels are even; their
+// order is drawn anew for each square and `surface`, so that what two surfaces let through one behind the other is the
+// product of both.
+float coverageThreshold(uvec2 texel, uint surface) {
+    uint random = hash(texel.x >> 1u ^ hash(texel.y >> 1u ^ hash(surface)));
+    // Any order of four places is an affine map of two bits.
+    uint alongX = 1u + random % 3u, alongY = 1u + (alongX + (random >> 8u & 1u)) % 3u;
+    uint quarter = (random >> 9u ^ (texel.x & 1u) * alongX ^ (texel.y & 1u) * alongY) & 3u;
+    return (float(quarter) + (float(random >> 16u) + 0.5) / 65536.0) / 4.0;
 }
 
 #endif

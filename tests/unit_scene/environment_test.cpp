@@ -46,7 +46,22 @@ TEST(Environment, IsSanitizedWithOneWarning) {
     const std::vector<glm::vec3> expected{{0, 1, 2}, {0, 0, 5}, {33952, 33952, 33952}, {0, 0, 0}};
     EXPECT_EQ(environment.radiance, expected);
     ASSERT_EQ(warnings.all().size(), 1u);
-    EXPECT_EQ(warnings.count("2 NaN and 2 negative values become 0, 2 infinite"), 1) << warnings.all()[0];
+    EXPECT_EQ(warnings.count(
+                  "bad.exr: 2 NaN values become 0, 2 negative values become 0, 2 infinite values become the "
+                  "largest that is finite"),
+              1)
+        << warnings.all()[0];
+}
+
+TEST(Environment, NegativeValuesOfResamplingAreMendedWithoutAWord) {
+    Environment environment{"ringing", 2, 1, {{1, 2, 3}, {1, -1e-5f, 1}}};
+    const test::CapturedWarnings warnings;
+    sanitizeEnvironment(environment);
+    EXPECT_EQ(environment.radiance[1], glm::vec3(1, 0, 1));
+    EXPECT_TRUE(warnings.all().empty());
+    environment.radiance[1].y = -1;
+    sanitizeEnvironment(environment);
+    EXPECT_EQ(warnings.count("ringing: 1 negative value becomes 0"), 1);
 }
 
 TEST(Environment, OneChannelIsGreyAndIntegersAreSrgb) {
