@@ -32,6 +32,7 @@ struct FrameContext {
     UploadedScene scene;
     std::vector<LightSample> lightSamples;  // of the rig, then those drawn from the environment
     std::vector<Bounds> groups;             // of receivers
+    double pixelsAcross = 0;                // the largest diagonal of a character in view, in pixels of the picture
 
     const Environment* environment = nullptr;  // what is left of it once light samples are drawn
     EnvironmentMaps environmentMaps;           // filled before recording: filtering submits its own commands

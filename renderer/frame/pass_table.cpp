@@ -1,4 +1,7 @@
 // The pass table: to add a pass, add its row here, its pair of files and its shader.
+#include <algorithm>
+#include <bit>
+
 #include "renderer/frame/frame.h"
 #include "renderer/gpu/device.h"
 #include "renderer/passes/diffusion.h"
@@ -14,9 +17,10 @@ namespace {
 constexpr int kSupersampling = 3;
 // Directions in which the environment's visibility is known: enough that a hemisphere's irradiance is within 2 %.
 constexpr int kVisibilityDirections = 128;
-// Memory that light maps may take, and the sizes that they may have.
-constexpr std::uint64_t kLightMapBytes = std::uint64_t(512) << 20;
-constexpr int kLargestLightMap = 2048, kSmallestLightMap = 128;
+// Light maps are as fine as the picture asks (a texel is one to two pixels), whatever their number: a light casts the same
+// shadow alone and among many. Only beyond this much memory do they become coarser.
+constexpr std::uint64_t kLightMapBytes = std::uint64_t(2) << 30;
+constexpr int kLargestLightMap = 4096, kFinestUsefulLightMap = 1024, kSmallestLightMap = 128;
 
 void uploadLights(FrameContext& frame) {
     std::vector<shared::LightSampleData> samples;
@@ -50,7 +54,8 @@ void uploadLights(FrameContext& frame) {
 
 int lightMapSize(const FrameContext& frame, std::size_t views) {
     const std::uint64_t texelBytes = frame.needs[Need::translucency] ? 8 : 4;
-    int size = kLargestLightMap;
+    const auto wanted = static_cast<unsigned>(std::clamp<double>(frame.pixelsAcross, 1, kLargestLightMap));
+    int size = std::clamp(static_cast<int>(std::bit_ceil(wanted)) / 2, kFinestUsefulLightMap, kLargestLightMap);
     while (size > kSmallestLightMap && views * texelBytes * size * size > kLightMapBytes) size /= 2;
     return size;
 }

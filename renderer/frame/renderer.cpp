@@ -180,8 +180,13 @@ RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const 
     AtlasOptions atlasOptions{.size = settings.irradianceSize};
     for (const Character& character : scene.characters) {
         const glm::vec3 low(character.bounds.min - frame.geometry.origin), high(character.bounds.max - frame.geometry.origin);
-        atlasOptions.mmPerTexelWanted.push_back(
-            wantedMmPerTexel(character, metrics, reaches(frame.camera.worldToClip, low, high)));
+        const bool inView = reaches(frame.camera.worldToClip, low, high);
+        atlasOptions.mmPerTexelWanted.push_back(wantedMmPerTexel(character, metrics, inView));
+        if (inView) {
+            frame.pixelsAcross =
+                std::max(frame.pixelsAcross, glm::length(character.bounds.size()) /
+                                                 metrics.metresPerPixel(character.bounds.centre()));
+        }
     }
     frame.atlas = layOutAtlas(scene, frame.geometry, atlasOptions);
     for (const ReceiverGroup& group : frame.geometry.receiverGroups) frame.groups.push_back(group.bounds);

@@ -101,7 +101,7 @@ TEST(OneDiffusion, SixteenLightsAndAnEnvironmentAreDiffusedOnce) {
     EXPECT_EQ(all.stats.runsOf("diffusion"), 1);
     EXPECT_EQ(all.stats.lights, 16);
     EXPECT_EQ(all.stats.lightSamples, 12 + 4 * 4);
-    expectAtMost("superposition of sixteen lights and an environment", relativeL2(all.picture, sum), 0.002);
+    expectAtMost("superposition of sixteen lights and an environment", relativeL2(all.picture, sum), 0.001);
 }
 
 // Nothing to diffuse, nothing diffused.
