@@ -26,6 +26,6 @@ TriangleMesh makeEyeball(const Eye& eye, double irisScale);
 void shadeByOpenness(TriangleMesh& ball, const Eye& eye, const TriangleMesh& walls);
 
 // MakeHuman's eye picture made plausible as albedo: its sclera darkened and reddened towards the corners.
-Raster makeEyeColors(const Raster& picture);
+Raster makeEyeColors(const Raster& picture, double irisGain);
 
 }  // namespace cutis::people

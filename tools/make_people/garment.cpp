@@ -69,6 +69,8 @@ struct Cut {
 
     std::uint32_t between(std::uint32_t a, std::uint32_t b, double level,
                           std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>& made) {
+        if (value[a] == level) return a;
+        if (value[b] == level) return b;
         const auto [entry, added] = made.try_emplace(std::minmax(a, b), std::uint32_t(position.size()));
         if (added) {
             const double t = (level - value[a]) / (value[b] - value[a]);
@@ -82,6 +84,10 @@ struct Cut {
 
     // Splits triangles along value == level; keeps those above it, and those below it too unless `drop`.
     void split(double level, bool drop) {
+        constexpr double kNear =
+            0.0006;  // metres: vertices as near as this move to the level, or slivers arise
+        for (double& v : value)
+            if (std::abs(v - level) < kNear) v = level;
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made;
         std::vector<std::uint32_t> out;
         const auto emit = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -31,10 +31,10 @@ void makeScene(const fs::path& recipePath, const fs::path& makeHuman, const fs::
     fs::create_directories(folder);
 
     // The group camera: 16:9, level with the faces, far enough to keep perspective kind to them.
-    constexpr double kGroupFov = 0.32, kFaceFov = 0.35, kFaceDistance = 1.0;
+    constexpr double kGroupFov = 0.27, kFaceFov = 0.35, kFaceDistance = 1.0;
     glm::dvec3 middle(0);
     for (const PersonRecipe& person : recipe.people) middle += person.eyes / double(recipe.people.size());
-    const glm::dvec3 groupTarget = middle - glm::dvec3(0, 0.055, 0);
+    const glm::dvec3 groupTarget = middle - glm::dvec3(0, 0.022, 0);
     const glm::dvec3 groupCamera = groupTarget + glm::dvec3(0, 0.04, 1.62);
 
     GltfFile file;

@@ -28,6 +28,7 @@ struct TriangleMesh {
     std::vector<glm::dvec2> uvs;        // the map that cutis samples
     std::vector<glm::dvec2> sourceUvs;  // where the same point lies on MakeHuman's map; not stored
     std::vector<glm::dvec3> colors;     // linear
+    std::vector<double> cover;          // share hidden under hair, 0 to 1; not stored
     std::vector<std::uint32_t> indices;
 };
 

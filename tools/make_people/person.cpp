@@ -7,6 +7,7 @@
 
 #include "eye.h"
 #include "garment.h"
+#include "hair.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
 #include "skin_map.h"
@@ -140,13 +141,13 @@ int addMeshNode(GltfFile& file, const std::string& name, const TriangleMesh& mes
 }
 
 int addSkin(GltfFile& file, const fs::path& folder, const Sources& sources, const PersonRecipe& person,
-            const Recipe& recipe, const TriangleMesh& mesh) {
+            const Recipe& recipe, const TriangleMesh& mesh, const glm::dvec3& scalp) {
     const bool fine = person.skin.map == kFineMap;
     const Raster coarse =
         fine ? Raster() : readColors(sources.makeHuman / "public/data/skins" / person.skin.map);
     const SkinMaps maps =
         makeSkinMaps(rasterizeSurfels(mesh, recipe.mapSize), fine ? sources.fineMap : coarse,
-                     fine ? nullptr : &sources.fineDetail, person.skin, seedOf(person));
+                     fine ? nullptr : &sources.fineDetail, person.skin, scalp, seedOf(person));
     const std::string albedo = person.name + "-albedo.png", normal = person.name + "-normal.png";
     writePng8(folder / albedo, maps.albedo, true);
     writePng8(folder / normal, maps.normal, false);
@@ -167,7 +168,8 @@ int addEyes(GltfFile& file, const fs::path& folder, const Sources& sources, cons
     const std::string colors = person.name + "-eye.png";
     writePng8(folder / colors,
               makeEyeColors(readColors(sources.makeHuman / "public/data/proxies/eyes/HighPolyEyes/textures" /
-                                       (person.iris + "_eye.png"))),
+                                       (person.iris + "_eye.png")),
+                            person.irisGain),
               true);
     ordered_json material;
     material["name"] = person.name + " eyes";
@@ -184,37 +186,57 @@ int addEyes(GltfFile& file, const fs::path& folder, const Sources& sources, cons
     return file.addNode({{"name", person.name + " eyes"}, {"children", nodes}});
 }
 
-int addHair(GltfFile& file, const fs::path& folder, const Sources& sources, const std::string& person,
-            const HairRecipe& hair, const BaseMesh& base, const std::vector<glm::dvec3>& positions,
-            const Pose& pose, const Following& following) {
-    const Proxy proxy = loadProxy(sources.makeHuman, hair.proxy);
-    QuadMesh fitted = fitProxy(proxy, base, positions);
+// One proxy of scalp hair, brows or lashes, posed with the head.
+struct Hair {
+    std::string name;
+    HairRecipe recipe;
+    TriangleMesh mesh;
+    Raster colors;
+    bool onScalp() const { return recipe.proxy.starts_with("hair/"); }
+};
+
+Hair makeHair(const Sources& sources, const std::string& person, const HairRecipe& recipe,
+              const std::vector<glm::dvec3>& positions, const Pose& pose, const Following& following,
+              const TriangleMesh& skin) {
+    const Proxy proxy = loadProxy(sources.makeHuman, recipe.proxy);
+    QuadMesh fitted = fitProxy(proxy, sources.base, positions);
     for (std::size_t i = 0; i < fitted.positions.size(); ++i) {
         double weight = 0;
         for (int k = 0; k < 3; ++k) weight += proxy.weights[i][k] * following.head.at(proxy.references[i][k]);
         fitted.positions[i] = pose.applyHead(fitted.positions[i], std::clamp(weight, 0.0, 1.0));
     }
-    const std::string name = person + " " + fs::path(hair.proxy).filename().string();
-    std::string image = name + ".png";
-    std::replace(image.begin(), image.end(), ' ', '-');
-    Raster colors = readColors(proxy.texture);
-    for (std::size_t i = 0; i < colors.values.size(); i += std::size_t(colors.channels)) {
-        float* texel = &colors.values[i];
-        const double grey = 0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2];
-        for (int c = 0; c < 3; ++c)
-            texel[c] = float(hair.gain[c] * glm::mix(grey, double(texel[c]), hair.saturation));
-    }
-    writePng8(folder / image, colors, true);
+    Hair hair{person + " " + fs::path(recipe.proxy).filename().string(), recipe,
+              triangulate(subdivide(fitted, 1)), makeHairColors(readColors(proxy.texture), recipe)};
+    if (hair.onScalp()) liftHair(hair.mesh, skin);
+    return hair;
+}
 
+// Darkens the skin under scalp hair, so that roots do not end on bare skin.
+glm::dvec3 coverScalp(TriangleMesh& skin, const std::vector<Hair>& hair) {
+    constexpr double kShown = 0.75;  // of the hair's colour at full cover; the rest is skin between the roots
+    glm::dvec3 color(0);
+    for (const Hair& h : hair) {
+        if (!h.onScalp()) continue;
+        skin.cover = computeCover(skin, h.mesh, h.colors);
+        for (double& share : skin.cover) share *= kShown;
+        color = meanHairColor(h.colors);
+    }
+    return color;
+}
+
+int addHair(GltfFile& file, const fs::path& folder, const Hair& hair) {
+    std::string image = hair.name + ".png";
+    std::replace(image.begin(), image.end(), ' ', '-');
+    writePng8(folder / image, hair.colors, true);
     ordered_json material;
-    material["name"] = name;
+    material["name"] = hair.name;
     material["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", file.addTexture(image)}}},
                                         {"metallicFactor", 0},
-                                        {"roughnessFactor", hair.roughness}};
+                                        {"roughnessFactor", hair.recipe.roughness}};
     material["doubleSided"] = true;
-    material["alphaMode"] = hair.cutoff > 0 ? "MASK" : "BLEND";
-    if (hair.cutoff > 0) material["alphaCutoff"] = hair.cutoff;
-    return addMeshNode(file, name, triangulate(subdivide(fitted, 1)), file.addMaterial(material));
+    material["alphaMode"] = hair.recipe.cutoff > 0 ? "MASK" : "BLEND";
+    if (hair.recipe.cutoff > 0) material["alphaCutoff"] = hair.recipe.cutoff;
+    return addMeshNode(file, hair.name, hair.mesh, file.addMaterial(material));
 }
 
 int addShirt(GltfFile& file, const fs::path& folder, const PersonRecipe& person, const TriangleMesh& mesh) {
@@ -265,7 +287,7 @@ int addPerson(GltfFile& file, const fs::path& folder, const Sources& sources, co
     std::vector<glm::dvec3> posed(positions.size());
     for (std::size_t i = 0; i < posed.size(); ++i) posed[i] = pose.apply(positions[i], following, i);
 
-    const TriangleMesh skin = makeSkinMesh(selectSkin(base, posed, person.shirt), recipe.levels);
+    TriangleMesh skin = makeSkinMesh(selectSkin(base, posed, person.shirt), recipe.levels);
     const glm::dquat turn(glm::dvec3(0, radians(person.turn), 0));
     std::vector<Eye> eyes;
     for (const char* group : {"helper-l-eye", "helper-r-eye"}) {
@@ -273,11 +295,13 @@ int addPerson(GltfFile& file, const fs::path& folder, const Sources& sources, co
         eye.gaze = glm::normalize(glm::inverse(turn) * (lookAt - person.eyes) - eye.centre);
         eyes.push_back(eye);
     }
-    std::vector<int> children{addSkin(file, folder, sources, person, recipe, skin),
+    std::vector<Hair> hair;
+    for (const HairRecipe& h : person.hair)
+        hair.push_back(makeHair(sources, person.name, h, positions, pose, following, skin));
+    const glm::dvec3 scalp = coverScalp(skin, hair);
+    std::vector<int> children{addSkin(file, folder, sources, person, recipe, skin, scalp),
                               addEyes(file, folder, sources, person, eyes, skin)};
-    for (const HairRecipe& hair : person.hair)
-        children.push_back(
-            addHair(file, folder, sources, person.name, hair, base, positions, pose, following));
+    for (const Hair& h : hair) children.push_back(addHair(file, folder, h));
     const QuadMesh torso = selectTorso(base, posed, person.shirt),
                    baseTorso = selectTorso(base, base.mesh.positions, person.shirt);
     children.push_back(

@@ -61,6 +61,8 @@ SkinRecipe readSkin(const json& object, const std::string& path) {
     fields.read("freckles", skin.freckles);
     fields.read("pores", skin.pores);
     fields.read("wrinkles", skin.wrinkles);
+    fields.read("lips", skin.lips);
+    fields.read("flush", skin.flush);
     fields.read("stubble", skin.stubble);
     fields.read("roughness", skin.roughness);
     fields.read("mix", skin.mix);
@@ -107,6 +109,7 @@ PersonRecipe readPerson(const json& object, const std::string& path) {
     fields.read("head_nod", person.headNod);
     fields.read("head_tilt", person.headTilt);
     fields.read("iris_scale", person.irisScale);
+    fields.read("iris_gain", person.irisGain);
     fields.finish();
     return person;
 }

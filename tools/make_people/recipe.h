@@ -17,6 +17,8 @@ struct SkinRecipe {
     double freckles = 0;     // pigment spots: share of the spots that show, 0 to 1
     double pores = 1;        // depth of pores
     double wrinkles = 1;     // depth of fine creases
+    double lips = 0;         // blood in the lips, beyond what the map has
+    double flush = 0;        // blood in cheeks, nose and ears, likewise
     double stubble = 0;      // shaved beard: strength of dark dots on the lower face
     double roughness = 0.3;  // written to extras.skin
     double mix = 0.5;        // written to extras.skin
@@ -47,6 +49,7 @@ struct PersonRecipe {
     double headTurn = 0, headNod = 0, headTilt = 0;  // of the head on the neck, degrees
     ShirtRecipe shirt;
     double irisScale = 1;
+    double irisGain = 1;  // multiplies the picture's iris: below 1 makes light brown dark
 };
 
 struct Recipe {

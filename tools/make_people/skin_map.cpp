@@ -91,6 +91,7 @@ glm::dvec3 pigmentAt(const glm::dvec3& mm, const Regions& region, const SkinReci
         0.05 * fractalNoise(mm / 6.0, 3, seed + 20) + 0.05 * fractalNoise(mm / 1.1, 2, seed + 21);
     double blood = recipe.blotches * (0.14 * fractalNoise(mm / 16.0, 3, seed + 22) +
                                       0.07 * fractalNoise(mm / 2.5, 2, seed + 23));
+    blood += recipe.lips * region.lips + recipe.flush * std::max({0.8 * region.cheeks, region.nose});
     const double sunlit = std::max({region.nose, region.cheeks, 0.35 * region.face});
     if (recipe.freckles > 0) {
         for (const double spacing : {2.2, 4.0}) {
@@ -171,6 +172,7 @@ Surfels rasterizeSurfels(const TriangleMesh& mesh, int size) {
     out.positionDu.resize(count);
     out.positionDv.resize(count);
     out.source.resize(count);
+    out.cover.resize(count);
     out.covered.resize(count);
     for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
         const std::uint32_t* v = &mesh.indices[t];
@@ -196,6 +198,9 @@ Surfels rasterizeSurfels(const TriangleMesh& mesh, int size) {
                                             wc * mesh.positions[v[2]]);
                 out.source[i] = glm::vec2(wa * mesh.sourceUvs[v[0]] + wb * mesh.sourceUvs[v[1]] +
                                           wc * mesh.sourceUvs[v[2]]);
+                if (!mesh.cover.empty())
+                    out.cover[i] =
+                        float(wa * mesh.cover[v[0]] + wb * mesh.cover[v[1]] + wc * mesh.cover[v[2]]);
                 out.positionDu[i] = du;
                 out.positionDv[i] = dv;
                 out.covered[i] = 1;
@@ -235,7 +240,7 @@ Raster computeDetail(const Raster& map) {
 }
 
 SkinMaps makeSkinMaps(const Surfels& surfels, const Raster& source, const Raster* detail,
-                      const SkinRecipe& recipe, unsigned seed) {
+                      const SkinRecipe& recipe, const glm::dvec3& scalp, unsigned seed) {
     const int n = surfels.size;
     SkinMaps maps{Raster(n, n, 3), Raster(n, n, 3)};
     std::vector<float> height(std::size_t(n) * n);
@@ -260,6 +265,7 @@ SkinMaps makeSkinMaps(const Surfels& surfels, const Raster& source, const Raster
                 const double share = 1.3 * (1 - std::max(region.lips, region.eyelids));
                 albedo *= glm::exp(share * glm::clamp(sampleLanczos(*detail, uv), -0.25, 0.25));
             }
+            albedo = glm::mix(albedo, scalp, double(surfels.cover[i]));
             for (int c = 0; c < 3; ++c)
                 maps.albedo.at(x, int(y))[c] = float(std::clamp(albedo[c], 0.0, 0.95));
             height[i] = float(reliefAt(mm, region, recipe, seed));

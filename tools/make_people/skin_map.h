@@ -26,6 +26,7 @@ struct Surfels {
     std::vector<glm::vec3> position;                // metres
     std::vector<glm::vec3> positionDu, positionDv;  // metres a texel
     std::vector<glm::vec2> source;                  // on MakeHuman's map
+    std::vector<float> cover;                       // share hidden under hair
     std::vector<char> covered;
 };
 
@@ -41,8 +42,9 @@ struct SkinMaps {
 // layout.
 Raster computeDetail(const Raster& map);
 
-// `source` is MakeHuman's map; `detail`, if any, what a finer map of the same layout lends it.
+// `source` is MakeHuman's map; `detail`, if any, what a finer map of the same layout lends it; `scalp` the
+// colour that covered skin takes on.
 SkinMaps makeSkinMaps(const Surfels& surfels, const Raster& source, const Raster* detail,
-                      const SkinRecipe& recipe, unsigned seed);
+                      const SkinRecipe& recipe, const glm::dvec3& scalp, unsigned seed);
 
 }  // namespace cutis::people
