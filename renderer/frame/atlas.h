@@ -27,7 +27,7 @@ struct Atlas {
 
 struct AtlasOptions {
     int size = 0;                            // exactly this; 0: chosen
-    std::vector<double> mmPerTexelWanted;  // a character; used when size is 0
+    std::vector<double> mmPerTexelWanted = {};  // a character; used when size is 0
     int maxSize = 4096;                      // bound when size is 0
 };
 

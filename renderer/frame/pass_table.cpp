@@ -53,6 +53,7 @@ void uploadLights(FrameContext& frame) {
 }
 
 int lightMapSize(const FrameContext& frame, std::size_t views) {
+    if (frame.settings->lightMapSize > 0) return frame.settings->lightMapSize;
     const std::uint64_t texelBytes = frame.needs[Need::translucency] ? 8 : 4;
     const auto wanted = static_cast<unsigned>(std::clamp<double>(frame.pixelsAcross, 1, kLargestLightMap));
     int size = std::clamp(static_cast<int>(std::bit_ceil(wanted)) / 2, kFinestUsefulLightMap, kLargestLightMap);

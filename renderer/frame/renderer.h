@@ -22,6 +22,7 @@ struct RenderSettings {
     int width = 1280, height = 720;
     int irradianceSize = 0;  // the atlas is exactly this many texels square; 0: chosen from the picture
     int gaussians = 0;       // the profile is reduced to this many Gaussians; 0: all
+    int lightMapSize = 0;    // texels along each side of a light map; 0: chosen from the picture
     Merge merge = Merge::min;
     bool prune = true;  // false: run also what could be left out, on neutral inputs
     std::uint32_t seed = 0;

@@ -24,7 +24,7 @@ struct Light {
     LightType type = LightType::point;
     bool enabled = true;
     glm::dvec3 color{1};               // linear Rec.709
-    std::optional<double> temperature;  // kelvin; its colour multiplies `color`
+    std::optional<double> temperature = {};  // kelvin; its colour multiplies `color`
     double intensity = 1;               // lux (directional), candela (point, spot), radiance (rect)
     double innerConeAngle = 0, outerConeAngle = 0.7853981633974483;  // radians from the axis (spot)
     double radius = 0;                  // metres: a point or spot light of this size is an area light
@@ -32,7 +32,7 @@ struct Light {
     int samples = 0;                    // light samples of an area light; 0: chosen by cutis
     double range = 0;                   // metres, KHR_lights_punctual; 0: none
     bool shadow = true;
-    std::optional<Placement> place;     // wins over position and direction, which it fills when it is resolved
+    std::optional<Placement> place = {};     // wins over position and direction, which it fills when it is resolved
     glm::dvec3 position{0}, direction{0, 0, -1};  // world; direction is where the light shines to, unit length
     bool operator==(const Light&) const = default;
 };

@@ -19,8 +19,8 @@ TEST(Flip, OfAPictureAndItselfIsZero) {
     EXPECT_EQ(meanOf(flipMap(picture, picture)), 0);
 }
 
-// Uniform pictures have no features, and the filters change nothing: what is left is the colour difference by hand.
-// Black and white: 100^0.7 = 25.119 lies beyond the bend at 0.4 · 203.3^0.7 = 16.5.
+// Uniform pictures have no features, and the filters change nothing: what is left is the colour difference by
+// hand. Black and white: 100^0.7 = 25.119 lies beyond the bend at 0.4 · 203.3^0.7 = 16.5.
 TEST(Flip, OfUniformColoursIsTheirRemappedDifference) {
     const double largest = std::pow(203.3, 0.7), bend = 0.4 * largest;
     const double expected = 0.95 + (std::pow(100, 0.7) - bend) / (largest - bend) * 0.05;
@@ -40,7 +40,8 @@ TEST(Flip, SeesNoDifferenceBelowTheEyesResolution) {
         for (int x = 0; x < 64; ++x)
             for (int c = 0; c < 3; ++c) board.values[(y * 64 + x) * 3 + c] = (x + y) % 2 ? 0.6f : 0.4f;
     const Picture mean = uniform(64, 0.5f, 0.5f, 0.5f);
-    const double far = flipMap(board, mean, 400).values[32 * 64 + 32], near = flipMap(board, mean, 8).values[32 * 64 + 32];
+    const double far = flipMap(board, mean, 400).values[32 * 64 + 32],
+                 near = flipMap(board, mean, 8).values[32 * 64 + 32];
     EXPECT_LT(far, 0.02);
     EXPECT_GT(near, 0.1);
 }

@@ -19,7 +19,8 @@ std::vector<bool> all(const Picture& picture) {
 
 TEST(Metrics, OfAConstantOffset) {
     const Picture reference = makePicture(8, 4, 2);
-    const ErrorFigures figures = compareToReference(makePicture(8, 4, 2.5f), {.mean = &reference}, all(reference));
+    const ErrorFigures figures =
+        compareToReference(makePicture(8, 4, 2.5f), {.mean = &reference}, all(reference));
     EXPECT_NEAR(figures.relativeL2, 0.25, 1e-12);
     EXPECT_NEAR(figures.rmse, 0.5, 1e-12);
     EXPECT_NEAR(figures.max, 0.5, 1e-12);
@@ -55,15 +56,16 @@ TEST(Metrics, OnlyCoveredPixelsCountAndNonfiniteOnesAreCounted) {
     EXPECT_EQ(figures.max, 0);
 }
 
-// The reference's own noise, 10 % a value, would add √0.5 · 10 % to an error of 2 % measured against the mean of the
-// halves; against both halves it does not.
+// The reference's own noise, 10 % a value, would add √0.5 · 10 % to an error of 2 % measured against the mean
+// of the halves; against both halves it does not.
 TEST(Metrics, HalvesTakeTheReferencesNoiseOut) {
     constexpr int kSize = 256;
     std::mt19937 random(7);
     std::normal_distribution<float> noise(0, 0.1f), error(0, 0.02f);
     Picture picture = makePicture(kSize, kSize, 1), first = picture, second = picture, mean = picture;
     for (std::size_t i = 0; i < picture.values.size(); ++i) {
-        picture.values[i] += error(random), first.values[i] += noise(random), second.values[i] += noise(random);
+        picture.values[i] += error(random), first.values[i] += noise(random),
+            second.values[i] += noise(random);
         mean.values[i] = (first.values[i] + second.values[i]) / 2;
     }
     const ErrorFigures naive = compareToReference(picture, {.mean = &mean}, all(mean));
@@ -86,7 +88,8 @@ TEST(Metrics, ErrorMapIsOverTheMean) {
 
 TEST(Metrics, RefusesDifferentSizes) {
     const Picture reference = makePicture(2, 2, 1);
-    EXPECT_THROW(compareToReference(makePicture(4, 1, 1), {.mean = &reference}, all(reference)), std::invalid_argument);
+    EXPECT_THROW(compareToReference(makePicture(4, 1, 1), {.mean = &reference}, all(reference)),
+                 std::invalid_argument);
 }
 
 }  // namespace

@@ -1,0 +1,122 @@
+#include "renderer/measure/measurement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "renderer/measure/flip.h"
+
+namespace cutis {
+namespace {
+
+// Each pass and the sum of all, one value a run.
+struct TimedRuns {
+    std::vector<double> total;
+    std::map<std::string, std::vector<double>> passes;
+
+    void add(const RenderStats& stats) {
+        double sum = 0;
+        for (const PassStats& pass : stats.passes) {
+            passes[pass.name].push_back(pass.gpuMs);
+            sum += pass.gpuMs;
+        }
+        total.push_back(sum);
+    }
+};
+
+void compare(const RenderResult& result, const SubjectReference& reference, double exposure,
+             Measurement& row) {
+    const bool halves = !reference.pictureHalves[0].values.empty();
+    const auto against = [&](const Picture& mean, const Picture* parts) {
+        return halves ? Reference{&mean, &parts[0], &parts[1]} : Reference{&mean};
+    };
+    const std::vector<bool> covered = coveredPixels(reference.picture);
+    row.picture =
+        compareToReference(result.picture, against(reference.picture, reference.pictureHalves), covered);
+    row.diffuse = compareToReference(result.aovs.at("diffuse"),
+                                     against(reference.diffuse, reference.diffuseHalves), covered);
+    row.flip =
+        meanOf(flipMap(displayLight(result.picture, exposure), displayLight(reference.picture, exposure)));
+    row.referenceError = reference.standardError;
+}
+
+}  // namespace
+
+Timing timingOf(std::vector<double> milliseconds) {
+    if (milliseconds.empty()) return {};
+    std::sort(milliseconds.begin(), milliseconds.end());
+    const std::size_t n = milliseconds.size();
+    return {(milliseconds[(n - 1) / 2] + milliseconds[n / 2]) / 2, milliseconds.front(), milliseconds.back()};
+}
+
+std::vector<Measurement> measureSettings(gpu::Device& device, const MeasureInput& input,
+                                         const std::vector<Setting>& settings, const MeasureHooks& hooks) {
+    std::vector<Measurement> rows;
+    Setting subject;
+    SubjectReference reference;
+    bool known = false;
+    for (const Setting& setting : settings) {
+        Measurement row{.setting = setting};
+        RenderResult result;
+        try {
+            Scene scene = *input.scene;
+            RenderInput render{
+                .scene = &scene, .rig = input.rig, .environment = input.environment, .camera = input.camera};
+            RenderSettings quality{.width = input.width, .height = input.height, .aovs = {"diffuse"}};
+            applySetting(setting, scene, render.rig, quality);
+            if (!known || !setting.sameSubject(subject)) {
+                known = false;
+                reference = hooks.reference(scene, render.rig);
+                subject = setting;
+                known = true;
+            }
+            TimedRuns runs;
+            // The first run compiles programs and fills caches: it is not timed.
+            for (int i = 0; i <= input.repeats; ++i) {
+                result = renderPicture(device, render, quality);
+                if (i > 0) runs.add(result.stats);
+            }
+            row.gpu = timingOf(runs.total);
+            for (const auto& [name, values] : runs.passes) row.passes[name] = timingOf(values);
+            row.bytesGpu = result.stats.bytesGpu;
+            row.nonfinite = result.stats.nonfinite;
+            row.atlasSize = result.stats.atlasWidth;
+            row.lightSamples = result.stats.lightSamples;
+            row.gaussians = result.stats.gaussians;
+            compare(result, reference, input.exposure, row);
+        } catch (const std::exception& error) {
+            row = {.setting = setting, .failure = error.what()};
+            result = {};
+        }
+        hooks.row(row, result.picture, reference);
+        rows.push_back(row);
+    }
+    markParetoFront(rows);
+    return rows;
+}
+
+void markParetoFront(std::vector<Measurement>& rows) {
+    for (Measurement& row : rows) {
+        row.paretoFront = row.failure.empty();
+        for (const Measurement& other : rows) {
+            if (!other.failure.empty() || !other.setting.sameSubject(row.setting)) continue;
+            const bool noWorse =
+                other.gpu.median <= row.gpu.median && other.diffuse.relativeL2 <= row.diffuse.relativeL2;
+            const bool better =
+                other.gpu.median < row.gpu.median || other.diffuse.relativeL2 < row.diffuse.relativeL2;
+            if (noWorse && better) row.paretoFront = false;
+        }
+    }
+}
+
+const Measurement* cheapestWithin(const std::vector<Measurement>& rows, double tolerance) {
+    const Measurement* cheapest = nullptr;
+    for (const Measurement& row : rows) {
+        if (!row.failure.empty() || row.diffuse.nonfinite > 0) continue;
+        if (row.diffuse.relativeL2 + 2 * row.diffuse.relativeL2Error > tolerance) continue;
+        if (!cheapest || row.gpu.median < cheapest->gpu.median) cheapest = &row;
+    }
+    return cheapest;
+}
+
+}  // namespace cutis

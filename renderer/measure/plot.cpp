@@ -1,0 +1,174 @@
+#include "renderer/measure/plot.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+#include "renderer/core/error.h"
+#include "renderer/core/files.h"
+
+extern char** environ;
+
+namespace cutis {
+namespace fs = std::filesystem;
+namespace {
+
+std::string gnuplotText(const std::string& text) {
+    std::string quoted = "\"";
+    for (char c : text) {
+        if (c == '"' || c == '\\') quoted += '\\';
+        if (static_cast<unsigned char>(c) >= ' ') quoted += c;
+    }
+    return quoted + '"';
+}
+
+bool plotted(const Measurement& row) {
+    return row.failure.empty() && row.gpu.median > 0 && row.diffuse.relativeL2 > 0;
+}
+
+std::string dataBlock(const std::vector<Measurement>& rows, bool front) {
+    std::vector<const Measurement*> points;
+    for (const Measurement& row : rows)
+        if (plotted(row) && (!front || row.paretoFront)) points.push_back(&row);
+    std::sort(points.begin(), points.end(),
+              [](const Measurement* a, const Measurement* b) { return a->gpu.median < b->gpu.median; });
+    std::string block;
+    for (const Measurement* point : points) {
+        char line[160];
+        const double error = 100 * point->diffuse.relativeL2, spread = 200 * point->diffuse.relativeL2Error;
+        std::snprintf(line, sizeof line, "%.9g %.9g %.9g %.9g %.9g %.9g ", point->gpu.median, error,
+                      point->gpu.min, point->gpu.max, std::max(error - spread, 0.1 * error), error + spread);
+        block += line + gnuplotText(point->setting.name) + '\n';
+    }
+    return block;
+}
+
+// $front and $rows are the data; `terminal` the kind of file.
+std::string script(const fs::path& output, const char* terminal, const std::vector<Measurement>& rows,
+                   const ReportInfo& info) {
+    std::string text =
+        "$rows << EOD\n" + dataBlock(rows, false) + "EOD\n$front << EOD\n" + dataBlock(rows, true) + "EOD\n";
+    text += std::string("set terminal ") + terminal + "\nset output " + gnuplotText(output.string()) + "\n";
+    text += "set logscale xy\nset grid\nset key top right\nset title " + gnuplotText(info.title) +
+            " noenhanced\n";
+    text += "set xlabel " + gnuplotText("time of a frame on " + info.device + " [ms]") + " noenhanced\n";
+    text +=
+        "set ylabel 'error of diffuse light: relative L2 [%]'\nset offsets graph 0.05, graph 0.25, graph "
+        "0.05, graph 0.05\n";
+    if (info.tolerance) {
+        text += "set arrow from graph 0, first " + std::to_string(100 * *info.tolerance) +
+                " to graph 1, first " + std::to_string(100 * *info.tolerance) + " nohead dashtype 2\n";
+    }
+    text +=
+        "plot $front using 1:2 with fsteps linewidth 2 linecolor rgb '#c03040' title 'Pareto front', "
+        "$rows using 1:2:3:4:5:6 with xyerrorbars pointtype 7 pointsize 0.5 linecolor rgb '#304060' "
+        "title 'settings, with the spread of their times and 95 % of their error', "
+        "$rows using 1:2:7 with labels left offset 0.7,0.4 font ',9' noenhanced notitle\n";
+    return text;
+}
+
+void runGnuplot(const std::string& commands, const fs::path& folder) {
+    const fs::path file = folder / "measure.gnuplot.tmp";
+    writeFileAtomically(file, commands);
+    std::string program = "gnuplot", name = file.string();
+    char* arguments[] = {program.data(), name.data(), nullptr};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    pid_t child = 0;
+    const int failed = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    int status = 0;
+    if (!failed) waitpid(child, &status, 0);
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    if (failed) throw Error("cannot plot", std::strerror(failed), "gnuplot");
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        throw Error("cannot plot", "gnuplot failed", folder.string());
+}
+
+std::string html(const std::string& text) {
+    std::string escaped;
+    for (char c : text) {
+        switch (c) {
+            case '<':
+                escaped += "&lt;";
+                break;
+            case '>':
+                escaped += "&gt;";
+                break;
+            case '&':
+                escaped += "&amp;";
+                break;
+            case '"':
+                escaped += "&quot;";
+                break;
+            default:
+                escaped += c;
+        }
+    }
+    return escaped;
+}
+
+std::string cell(const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return std::string("<td class=n>") + text + "</td>";
+}
+
+std::string htmlRow(std::size_t i, const Measurement& row) {
+    std::string text = row.paretoFront ? "<tr class=front>" : "<tr>";
+    text += "<th>" + html(row.setting.name) + "</th>";
+    if (!row.failure.empty())
+        return text + "<td colspan=10 class=failed>failed: " + html(row.failure) + "</td></tr>\n";
+    text += cell("%.4g", row.gpu.median) + cell("%.4g", row.gpu.min) + cell("%.4g", row.gpu.max);
+    text += cell("%.1f", static_cast<double>(row.bytesGpu) / 1e6);
+    text += cell("%.2f", 100 * row.diffuse.relativeL2) + cell("%.2f", 100 * row.diffuse.p99) +
+            cell("%+.2f", 100 * row.diffuse.bias) + cell("%.2f", 100 * row.picture.relativeL2) +
+            cell("%.4f", row.flip);
+    text += "<td><img loading=lazy src=\"" + html(pictureFile(i, row).string()) +
+            "\" alt=\"picture\"> <img loading=lazy src=\"" + html(errorFile(i, row).string()) +
+            "\" alt=\"error\"></td></tr>\n";
+    return text;
+}
+
+}  // namespace
+
+void writePlots(const fs::path& folder, const std::vector<Measurement>& rows, const ReportInfo& info) {
+    if (std::none_of(rows.begin(), rows.end(), plotted)) return;
+    runGnuplot(script(folder / "measure.svg", "svg size 1000,640 dynamic background rgb 'white'", rows, info),
+               folder);
+    runGnuplot(script(folder / "measure.png", "pngcairo size 1000,640", rows, info), folder);
+}
+
+std::string reportHtml(const std::vector<Measurement>& rows, const ReportInfo& info) {
+    std::string page =
+        "<!doctype html>\n<html lang=en><meta charset=utf-8><title>" + html(info.title) +
+        "</title>\n<style>\n"
+        "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:1200px;padding:0 1em;color:#222}\n"
+        "table{border-collapse:collapse;font-size:13px}td,th{padding:.3em .6em;border-bottom:1px solid "
+        "#ddd;text-align:left}\n"
+        ".n{text-align:right;font-variant-numeric:tabular-nums}.front th{color:#c03040}.failed{color:#a00}\n"
+        "td img{width:240px;vertical-align:middle}.plot{max-width:100%}code{background:#f2f2f2;padding:.1em "
+        ".3em}\n</style>\n";
+    page += "<h1>" + html(info.title) + "</h1>\n<p>" + std::to_string(info.width) + "×" +
+            std::to_string(info.height) + " pixels. Made by <code>" + html(info.command) +
+            "</code>; the figures are in <a href=\"measure.csv\">measure.csv</a> and "
+            "<a href=\"measure.json\">measure.json</a>.</p>\n<img class=plot src=\"measure.svg\" alt=\"error "
+            "against run time\">\n";
+    for (const std::string& paragraph : reportText(rows, info)) page += "<p>" + html(paragraph) + "</p>\n";
+    page +=
+        "<table>\n<tr><th>setting</th><th>ms</th><th>min</th><th>max</th><th>MB</th><th>diffuse L2 "
+        "%</th><th>p99 %</th>"
+        "<th>bias %</th><th>picture L2 %</th><th>FLIP</th><th>picture, and error of diffuse light (white: 20 "
+        "% of the mean)</th></tr>\n";
+    for (std::size_t i = 0; i < rows.size(); ++i) page += htmlRow(i, rows[i]);
+    return page + "</table>\n<p>Red names: the Pareto front.</p>\n</html>\n";
+}
+
+}  // namespace cutis

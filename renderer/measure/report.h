@@ -1,0 +1,39 @@
+// What `cutis measure` leaves in its folder: measure.csv, measure.json, plots (through gnuplot) and
+// index.html, which opens from disk.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/measure/measurement.h"
+
+namespace cutis {
+
+struct ReportInfo {
+    std::string title;    // of the scene and the sweep
+    std::string device;   // that drew the pictures
+    std::string command;  // that makes this report again
+    int width = 0, height = 0, repeats = 0;
+    std::optional<double> tolerance = {};  // of `diffuse`
+};
+
+std::string reportCsv(const std::vector<Measurement>& rows);
+std::string reportJson(const std::vector<Measurement>& rows, const ReportInfo& info);
+// What the plot shows, in sentences: paragraphs of plain text.
+std::vector<std::string> reportText(const std::vector<Measurement>& rows, const ReportInfo& info);
+
+// Names of a row's files below the folder: pictures/N-NAME.png and errors/N-NAME.png.
+std::filesystem::path pictureFile(std::size_t row, const Measurement& measurement);
+std::filesystem::path errorFile(std::size_t row, const Measurement& measurement);
+
+// The error of a row as colours: black none, through red and yellow, to white at `whole` (relative to the
+// mean) and beyond.
+void writeErrorMap(const std::filesystem::path& file, const Picture& relativeError, double whole);
+
+// Writes everything but the pictures. Throws Error, also when gnuplot is missing or fails.
+void writeReport(const std::filesystem::path& folder, const std::vector<Measurement>& rows,
+                 const ReportInfo& info);
+
+}  // namespace cutis
