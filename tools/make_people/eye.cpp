@@ -140,7 +140,7 @@ void shadeByOpenness(TriangleMesh& ball, const Eye& eye, const TriangleMesh& wal
     });
 }
 
-Raster makeEyeColors(const Raster& picture, double irisGain) {
+Raster makeEyeColors(const Raster& picture, const glm::dvec3& irisGain) {
     Raster out(picture.width, picture.height, 3);
     for (int y = 0; y < out.height; ++y)
         for (int x = 0; x < out.width; ++x) {
@@ -155,7 +155,7 @@ Raster makeEyeColors(const Raster& picture, double irisGain) {
             // The painted irises are more colourful than real ones: pull them towards their own grey.
             const double grey = 0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2];
             for (int c = 0; c < 3; ++c) {
-                const double iris = 0.9 * irisGain * glm::mix(grey, double(texel[c]), 0.55);
+                const double iris = 0.9 * irisGain[c] * glm::mix(grey, double(texel[c]), 0.55);
                 out.at(x, y)[c] = float(glm::mix(iris, texel[c] * white[c], sclera));
             }
         }

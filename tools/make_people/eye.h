@@ -26,6 +26,6 @@ TriangleMesh makeEyeball(const Eye& eye, double irisScale);
 void shadeByOpenness(TriangleMesh& ball, const Eye& eye, const TriangleMesh& walls);
 
 // MakeHuman's eye picture made plausible as albedo: its sclera darkened and reddened towards the corners.
-Raster makeEyeColors(const Raster& picture, double irisGain);
+Raster makeEyeColors(const Raster& picture, const glm::dvec3& irisGain);
 
 }  // namespace cutis::people

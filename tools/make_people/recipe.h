@@ -49,7 +49,7 @@ struct PersonRecipe {
     double headTurn = 0, headNod = 0, headTilt = 0;  // of the head on the neck, degrees
     ShirtRecipe shirt;
     double irisScale = 1;
-    double irisGain = 1;  // multiplies the picture's iris: below 1 makes light brown dark
+    glm::dvec3 irisGain{1};  // multiplies the picture's iris: below 1 makes light brown dark
 };
 
 struct Recipe {
