@@ -11,6 +11,7 @@
 
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
+#include "renderer/measure/html.h"
 
 extern char** environ;
 
@@ -92,47 +93,19 @@ void runGnuplot(const std::string& commands, const fs::path& folder) {
         throw Error("cannot plot", "gnuplot failed", folder.string());
 }
 
-std::string html(const std::string& text) {
-    std::string escaped;
-    for (char c : text) {
-        switch (c) {
-            case '<':
-                escaped += "&lt;";
-                break;
-            case '>':
-                escaped += "&gt;";
-                break;
-            case '&':
-                escaped += "&amp;";
-                break;
-            case '"':
-                escaped += "&quot;";
-                break;
-            default:
-                escaped += c;
-        }
-    }
-    return escaped;
-}
-
-std::string cell(const char* format, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return std::string("<td class=n>") + text + "</td>";
-}
-
 std::string htmlRow(std::size_t i, const Measurement& row) {
     std::string text = row.paretoFront ? "<tr class=front>" : "<tr>";
-    text += "<th>" + html(row.setting.name) + "</th>";
+    text += "<th>" + escapeHtml(row.setting.name) + "</th>";
     if (!row.failure.empty())
-        return text + "<td colspan=10 class=failed>failed: " + html(row.failure) + "</td></tr>\n";
-    text += cell("%.4g", row.gpu.median) + cell("%.4g", row.gpu.min) + cell("%.4g", row.gpu.max);
-    text += cell("%.1f", static_cast<double>(row.bytesGpu) / 1e6);
-    text += cell("%.2f", 100 * row.diffuse.relativeL2) + cell("%.2f", 100 * row.diffuse.p99) +
-            cell("%+.2f", 100 * row.diffuse.bias) + cell("%.2f", 100 * row.picture.relativeL2) +
-            cell("%.4f", row.flip);
-    text += "<td><img loading=lazy src=\"" + html(pictureFile(i, row).string()) +
-            "\" alt=\"picture\"> <img loading=lazy src=\"" + html(errorFile(i, row).string()) +
+        return text + "<td colspan=10 class=failed>failed: " + escapeHtml(row.failure) + "</td></tr>\n";
+    text += htmlNumber("%.4g", row.gpu.median) + htmlNumber("%.4g", row.gpu.min) +
+            htmlNumber("%.4g", row.gpu.max);
+    text += htmlNumber("%.1f", static_cast<double>(row.bytesGpu) / 1e6);
+    text += htmlNumber("%.2f", 100 * row.diffuse.relativeL2) + htmlNumber("%.2f", 100 * row.diffuse.p99) +
+            htmlNumber("%+.2f", 100 * row.diffuse.bias) + htmlNumber("%.2f", 100 * row.picture.relativeL2) +
+            htmlNumber("%.4f", row.flip);
+    text += "<td><img loading=lazy src=\"" + escapeHtml(pictureFile(i, row).string()) +
+            "\" alt=\"picture\"> <img loading=lazy src=\"" + escapeHtml(errorFile(i, row).string()) +
             "\" alt=\"error\"></td></tr>\n";
     return text;
 }
@@ -147,21 +120,13 @@ void writePlots(const fs::path& folder, const std::vector<Measurement>& rows, co
 }
 
 std::string reportHtml(const std::vector<Measurement>& rows, const ReportInfo& info) {
-    std::string page =
-        "<!doctype html>\n<html lang=en><meta charset=utf-8><title>" + html(info.title) +
-        "</title>\n<style>\n"
-        "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:1200px;padding:0 1em;color:#222}\n"
-        "table{border-collapse:collapse;font-size:13px}td,th{padding:.3em .6em;border-bottom:1px solid "
-        "#ddd;text-align:left}\n"
-        ".n{text-align:right;font-variant-numeric:tabular-nums}.front th{color:#c03040}.failed{color:#a00}\n"
-        "td img{width:240px;vertical-align:middle}.plot{max-width:100%}code{background:#f2f2f2;padding:.1em "
-        ".3em}\n</style>\n";
-    page += "<h1>" + html(info.title) + "</h1>\n<p>" + std::to_string(info.width) + "×" +
-            std::to_string(info.height) + " pixels. Made by <code>" + html(info.command) +
+    std::string page = htmlHead(info.title) + "<p>" + std::to_string(info.width) + "×" +
+            std::to_string(info.height) + " pixels. Made by <code>" + escapeHtml(info.command) +
             "</code>; the figures are in <a href=\"measure.csv\">measure.csv</a> and "
             "<a href=\"measure.json\">measure.json</a>.</p>\n<img class=plot src=\"measure.svg\" alt=\"error "
             "against run time\">\n";
-    for (const std::string& paragraph : reportText(rows, info)) page += "<p>" + html(paragraph) + "</p>\n";
+    for (const std::string& paragraph : reportText(rows, info))
+        page += "<p>" + escapeHtml(paragraph) + "</p>\n";
     page +=
         "<table>\n<tr><th>setting</th><th>ms</th><th>min</th><th>max</th><th>MB</th><th>diffuse L2 "
         "%</th><th>p99 %</th>"

@@ -10,7 +10,6 @@
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
 #include "renderer/measure/plot.h"
-#include "renderer/scene/image_io.h"
 
 namespace cutis {
 namespace fs = std::filesystem;
@@ -203,23 +202,6 @@ std::vector<std::string> reportText(const std::vector<Measurement>& rows, const 
                                 : "No setting is within " + percent(*info.tolerance) + ".");
     }
     return text;
-}
-
-void writeErrorMap(const fs::path& file, const Picture& relativeError, double whole) {
-    static constexpr unsigned char kStops[][3] = {{0, 0, 0},      {70, 10, 90},   {180, 30, 60},
-                                                  {240, 120, 10}, {255, 220, 80}, {255, 255, 255}};
-    constexpr int kSteps = static_cast<int>(std::size(kStops)) - 1;
-    Pixels pixels;
-    pixels.width = relativeError.width, pixels.height = relativeError.height, pixels.channels = 3;
-    for (float value : relativeError.values) {
-        const double place = std::isfinite(value) ? std::clamp(value / whole, 0.0, 1.0) * kSteps : kSteps;
-        const int step = std::min(static_cast<int>(place), kSteps - 1);
-        for (int c = 0; c < 3; ++c) {
-            const double color = kStops[step][c] + (place - step) * (kStops[step + 1][c] - kStops[step][c]);
-            pixels.samples.push_back(static_cast<std::byte>(std::lround(color)));
-        }
-    }
-    writePixels(file, pixels);
 }
 
 void writeReport(const fs::path& folder, const std::vector<Measurement>& rows, const ReportInfo& info) {

@@ -28,10 +28,6 @@ std::vector<std::string> reportText(const std::vector<Measurement>& rows, const 
 std::filesystem::path pictureFile(std::size_t row, const Measurement& measurement);
 std::filesystem::path errorFile(std::size_t row, const Measurement& measurement);
 
-// The error of a row as colours: black none, through red and yellow, to white at `whole` (relative to the
-// mean) and beyond.
-void writeErrorMap(const std::filesystem::path& file, const Picture& relativeError, double whole);
-
 // Writes everything but the pictures. Throws Error, also when gnuplot is missing or fails.
 void writeReport(const std::filesystem::path& folder, const std::vector<Measurement>& rows,
                  const ReportInfo& info);
