@@ -191,10 +191,12 @@ std::vector<Option> makeOptions() {
              r.settings.gaussians = static_cast<int>(parseInteger(text, 1, kMaxGaussians));
          }},
         {"--merge", "NAME", kRender, quality,
-         "How the thicknesses that several lights see become one: min, the smallest (default: min)", false,
+         "How the thicknesses that several lights see become one: min, the smallest, or opposite, the distance "
+         "of the other side of the skin, whatever the lights (default: min)",
+         false,
          [](Request& r, const std::string& text) {
-             if (text != "min") refuse(text, "min");
-             r.settings.merge = Merge::min;
+             if (text != "min" && text != "opposite") refuse(text, "min or opposite");
+             r.settings.merge = text == "min" ? Merge::min : Merge::opposite;
          }},
         {"--seed", "N", kRender, quality, "Starts the random numbers of whatever uses any (default: 0)",
          false,

@@ -1,10 +1,10 @@
 #version 460
 // All light that reaches each texel of skin: every light sample and the environment summed into one texture, and the
-// thickness under the texel merged by minimum over the light samples (DESIGN §1.4).
+// thickness under the texel merged by minimum over the light samples (DESIGN §1.4). OPPOSITE: thickness is known already.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
-// features: ENVIRONMENT LIGHTS SHADOWS(LIGHTS) TRANSLUCENCY(SHADOWS)
+// features: OPPOSITE ENVIRONMENT LIGHTS SHADOWS(LIGHTS) TRANSLUCENCY(SHADOWS)
 #include "shared/scene.h"
 #include "lib/geometry.glsl"
 #include "lib/octahedral.glsl"
@@ -32,6 +32,9 @@ layout(binding = 19) writeonly uniform image2DArray lightVisibility;  // a layer
 #ifdef TRANSLUCENCY
 layout(binding = 13) uniform utexture2DArray lightEntry;
 layout(binding = 14, rg32f) writeonly uniform image2D entry;  // place in the atlas, in texels, of the merged entry point
+#endif
+#ifdef OPPOSITE
+layout(binding = 20) uniform sampler2D opposite;  // z: thickness from the shape alone, mm
 #endif
 #ifdef ENVIRONMENT
 layout(binding = 15) uniform samplerCube environmentIrradiance;
@@ -209,6 +212,9 @@ void main() {
     // pow(0, 0) is undefined: black skin with mix 0 lets everything in, with any other mix nothing.
     vec3 before = material.mix <= 0.0 ? vec3(1.0) : pow(rho, vec3(material.mix));
     imageStore(irradiance, texel, vec4(entering * before, texelFetch(stretch, texel, 0).w));
+#ifdef OPPOSITE
+    thickness = texelFetch(opposite, texel, 0).z;
+#endif
     imageStore(incident, texel, vec4(arriving, thickness));
 #ifdef TRANSLUCENCY
     imageStore(entry, texel, vec4(entryTexel, 0.0, 0.0));

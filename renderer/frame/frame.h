@@ -40,6 +40,7 @@ struct FrameContext {
     gpu::Buffer environmentSettings;
 
     SurfaceImages surface;
+    gpu::Buffer oppositeVertices;
     LightMaps lights;
     EnvironmentVisibility visibility;
     double proxyError = 0;  // metres by which the sky's occluders may stand off the meshes

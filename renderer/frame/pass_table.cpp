@@ -3,12 +3,14 @@
 #include <bit>
 
 #include "renderer/frame/frame.h"
+#include "renderer/frame/opposite.h"
 #include "renderer/gpu/device.h"
 #include "renderer/passes/diffusion.h"
 #include "renderer/passes/exitance.h"
 #include "renderer/passes/irradiance.h"
 #include "renderer/passes/light_maps.h"
 #include "renderer/passes/light_views.h"
+#include "renderer/passes/opposite.h"
 #include "renderer/passes/surface.h"
 
 namespace cutis {
@@ -88,6 +90,14 @@ void lightMapsRow(FrameContext& frame) {
 
 void surfaceRow(FrameContext& frame) {
     frame.surface = recordSurface(*frame.device, *frame.commands, frame.scene.buffers, frame.atlas.size);
+}
+
+void oppositeRow(FrameContext& frame) {
+    const std::vector<shared::OppositeVertex> vertices =
+        findOpposite(*frame.input->scene, frame.geometry, frame.atlas);
+    frame.oppositeVertices = gpu::Buffer(*frame.device, {.name = "opposite sides", .bytes = vertices.size() * sizeof(vertices[0])});
+    frame.commands->upload(frame.oppositeVertices, vertices);
+    recordOpposite(*frame.device, *frame.commands, frame.scene.buffers, frame.oppositeVertices, frame.surface);
 }
 
 void environmentVisibilityRow(FrameContext& frame) {
@@ -171,9 +181,10 @@ const std::vector<PassRow>& passTable() {
     static const std::vector<PassRow> table{
         // name                     need               reads                       reads if written        writes
         {"surface",                 Need::skin,        {},                         {},                     {R::surface},    surfaceRow},
+        {"opposite",               Need::oppositeSides, {R::surface},              {},                     {R::oppositeSides}, oppositeRow},
         {"light_maps",              Need::shadows,     {},                         {},                     {R::lightMaps},  lightMapsRow},
         {"environment_visibility",  Need::environment, {},                         {R::surface},           {R::visibility}, environmentVisibilityRow},
-        {"irradiance",              Need::litSkin,     {R::surface},               {R::lightMaps, R::visibility}, {R::irradiance}, irradianceRow},
+        {"irradiance",              Need::litSkin,     {R::surface},               {R::lightMaps, R::oppositeSides, R::visibility}, {R::irradiance}, irradianceRow},
         {"diffusion",               Need::litSkin,     {R::surface, R::irradiance}, {},                    {R::levels},     diffusionRow},
         {"exitance",                Need::litSkin,     {R::levels},                {},                     {R::exitance},   exitanceRow},
         {"composite",               Need::always,      {},                         {R::exitance, R::lightMaps, R::visibility}, {R::picture}, compositeRow},

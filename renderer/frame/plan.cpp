@@ -31,11 +31,16 @@ Needs computeNeeds(const NeedsInput& input) {
     set(Need::shadows, input.shadowedSamples > 0,
         input.shadowedSamples > 0 ? count(input.shadowedSamples, "light sample") + " with shadows"
                                   : "no light casts shadows");
-    const bool translucent = skin && input.translucentSkinMaterials > 0 && input.shadowedSamples > 0;
-    set(Need::translucency, translucent,
-        translucent                           ? count(input.translucentSkinMaterials, "translucent material")
-        : input.translucentSkinMaterials == 0 ? "no skin is translucent"
-                                              : "no light map to find thickness with");
+    const bool translucent = skin && lit && input.translucentSkinMaterials > 0;
+    const bool fromLights = input.merge == Merge::min;
+    const std::string materials = count(input.translucentSkinMaterials, "translucent material");
+    set(Need::translucency, translucent && fromLights && input.shadowedSamples > 0,
+        !translucent                 ? "no skin is translucent"
+        : !fromLights                ? "thickness comes from the shape alone"
+        : input.shadowedSamples == 0 ? "no light map to find thickness with"
+                                     : materials);
+    set(Need::oppositeSides, translucent && !fromLights,
+        !translucent ? "no skin is translucent" : fromLights ? "thickness comes from light maps" : materials);
     set(Need::environment, input.environment, input.environment ? "an environment lights the scene" : "no environment");
     return needs;
 }

@@ -12,8 +12,8 @@ namespace cutis {
 struct FrameContext;
 
 // What a scene may need. A row of the pass table runs when its need is met.
-enum class Need { always, skin, litSkin, lights, shadows, translucency, environment };
-inline constexpr int kNeedCount = 7;
+enum class Need { always, skin, litSkin, lights, shadows, translucency, oppositeSides, environment };
+inline constexpr int kNeedCount = 8;
 
 // Each need with the reason for which it is met or not, in words.
 struct Needs {
@@ -27,11 +27,12 @@ struct NeedsInput {
     int skinDraws = 0, translucentSkinMaterials = 0;
     int lightSamples = 0, shadowedSamples = 0;
     bool environment = false;
+    Merge merge = Merge::min;
 };
 Needs computeNeeds(const NeedsInput& input);
 
 // What passes hand to one another.
-enum class Resource { environmentMaps, surface, lightMaps, visibility, irradiance, levels, exitance, visible, picture };
+enum class Resource { environmentMaps, surface, lightMaps, visibility, oppositeSides, irradiance, levels, exitance, visible, picture };
 
 struct PassRow {
     const char* name;

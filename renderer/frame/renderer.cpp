@@ -202,6 +202,7 @@ RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const 
     }
 
     NeedsInput needs;
+    needs.merge = settings.merge;
     needs.environment = frame.environment != nullptr;
     needs.lightSamples = static_cast<int>(frame.lightSamples.size());
     for (const LightSample& sample : frame.lightSamples) needs.shadowedSamples += sample.shadow;

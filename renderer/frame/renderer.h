@@ -15,8 +15,9 @@ namespace gpu {
 class Device;
 }
 
-// How thicknesses of several light samples merge into one per texel (DESIGN §1.4).
-enum class Merge { min };
+// How thicknesses become one per texel (DESIGN §1.4). min: the smallest that any light sample sees. opposite: the distance
+// of the other side of the skin, from its shape alone: linear in the lights, and the environment shines through too.
+enum class Merge { min, opposite };
 
 struct RenderSettings {
     int width = 1280, height = 720;

@@ -44,6 +44,7 @@ std::vector<Setting> qualitySweep() {
         settings.push_back(
             {.name = "environment in " + std::to_string(samples), .environmentSamples = samples});
     }
+    settings.push_back({.name = "merge opposite", .merge = "opposite"});
     settings.push_back(
         {.name = "draft", .irradianceSize = 512, .gaussians = 3, .lightMapSize = 512, .areaSamples = 1});
     settings.push_back(
@@ -89,7 +90,8 @@ Setting readSetting(const JsonView& entry, std::set<std::string>& names) {
     setting.lights = readInteger(entry, "lights", 0, 1, kMaxCopies);
     setting.characters = readInteger(entry, "characters", 0, 1, kMaxCopies);
     setting.merge = entry.string("merge", "min");
-    if (setting.merge != "min") entry.member("merge").fail("must be min");
+    if (setting.merge != "min" && setting.merge != "opposite")
+        entry.member("merge").fail("must be min or opposite");
     return setting;
 }
 
@@ -155,7 +157,7 @@ void applySetting(const Setting& setting, Scene& scene, Rig& rig, RenderSettings
     quality.irradianceSize = setting.irradianceSize;
     quality.gaussians = setting.gaussians;
     quality.lightMapSize = setting.lightMapSize;
-    quality.merge = Merge::min;
+    quality.merge = setting.merge == "opposite" ? Merge::opposite : Merge::min;
     for (Light& light : rig.lights) {
         const bool area = light.type == LightType::rect || light.radius > 0;
         if (area && setting.areaSamples > 0) light.samples = setting.areaSamples;

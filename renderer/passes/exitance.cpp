@@ -21,8 +21,9 @@ void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuf
     gpu::Bindings bindings{{"levels", bilinear(device, light.levels)},
                            {"GaussianBuffer", scene.gaussians},
                            {"exitance", light.exitance}};
-    if (light.entry) {
-        bindings.push_back({"entry", light.entry});
+    const gpu::Image& entry = light.entry ? light.entry : surface.opposite;
+    if (entry) {
+        bindings.push_back({"entry", entry});
         bindings.push_back({"incident", light.incident});
         bindings.push_back({"stretch", surface.stretch});
         bindings.push_back({"position", surface.position});
@@ -30,7 +31,7 @@ void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuf
     }
     // Texels between charts must read as uncovered.
     commands.clear(light.exitance);
-    const gpu::Program& program = device.program(light.entry ? "exitance.comp+TRANSLUCENCY" : "exitance.comp");
+    const gpu::Program& program = device.program(entry ? "exitance.comp+TRANSLUCENCY" : "exitance.comp");
     for (const ChartRange& chart : charts) {
         commands.dispatch(program, bindings,
                           SumPush{chart.rect, chart.firstGaussian,

@@ -25,6 +25,10 @@ void recordIrradiance(gpu::Device& device, gpu::Commands& commands, const Irradi
                            {"AlbedoTableBuffer", input.scene->albedoTable},
                            {"irradiance", light.irradiance},
                            {"incident", light.incident}};
+    if (input.surface->opposite) {
+        shader += "+OPPOSITE";
+        bindings.push_back({"opposite", bilinear(device, input.surface->opposite)});
+    }
     std::uint32_t lightCount = 0;
     if (input.environment) {
         shader += "+ENVIRONMENT";

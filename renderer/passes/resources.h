@@ -49,10 +49,11 @@ struct ChartRange {
     std::uint32_t receiverGroup = 0;
 };
 
-// Filled by recordSurface.
+// Filled by recordSurface and recordOpposite.
 struct SurfaceImages {
     int size = 0;
     gpu::Image triangles, position, normal, albedo, stretch;
+    gpu::Image opposite;  // only when thickness comes from the shape alone
 };
 
 // Filled by recordLightMaps. Layer = LightView::layer.
@@ -78,7 +79,7 @@ struct EnvironmentVisibility {
 struct SkinLight {
     gpu::Image irradiance;  // E' and the island
     gpu::Image incident;    // E and the thickness
-    gpu::Image entry;       // only with translucency
+    gpu::Image entry;       // only when thickness comes from light maps
     gpu::Image visibility;  // a layer a light: share of it that arrives; only with shadows
     gpu::Image levels;      // a layer for each Gaussian
     gpu::Image scratch;     // between the two directions of a blur

@@ -74,6 +74,13 @@ struct AtlasVertex {
     float island;  // 1-based number of its UV island
 };
 
+// The other side of the body at a skin vertex.
+struct OppositeVertex {
+    vec2 texel;       // its place in the atlas
+    float thickness;  // mm
+    float island;     // that it lies on, 0: there is none within reach
+};
+
 // A rectangle of the atlas: the UV layout of one skin material of one character.
 struct Chart {
     uvec4 rect;        // x, y, width, height in texels

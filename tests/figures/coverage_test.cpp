@@ -54,8 +54,8 @@ INSTANTIATE_TEST_SUITE_P(Sheets, Coverage,
                          ::testing::Values(Sheets{"quarter", {0.25}}, Sheets{"thin", {1.0 / 16}}, Sheets{"half", {0.5}},
                                            Sheets{"two halves", {0.5, 0.5}}, Sheets{"clear", {0}},
                                            Sheets{"full", {1}}),
-                         [](const auto& info) {
-                             std::string name = info.param.name;
+                         [](const auto& sheets) {
+                             std::string name = sheets.param.name;
                              std::erase(name, ' ');
                              return name;
                          });

@@ -222,6 +222,7 @@ Rendered render(const RenderJob& job) {
     std::vector<std::string> arguments = {CUTIS_PROGRAM, "render", folder / "scene.glb", "--rig",
                                           folder / "test.rig.json"};
     if (!job.environment) arguments.insert(arguments.end(), {"--env", "none"});
+    if (!job.merge.empty()) arguments.insert(arguments.end(), {"--merge", job.merge});
     if (job.irradianceSize > 0)
         arguments.insert(arguments.end(), {"--irradiance-size", std::to_string(job.irradianceSize)});
     return runRender(folder, std::move(arguments), job.width, job.height, job.aovs);

@@ -52,6 +52,7 @@ struct RenderJob {
     int width = 128, height = 128;
     int irradianceSize = 0;  // 0: the program's choice
     std::vector<std::string> aovs = {};
+    std::string merge = {};  // as --merge takes it; empty: the default
 };
 
 // What `--stats` says (DESIGN §2.1); reading it fails when one of its keys is missing.

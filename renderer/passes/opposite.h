@@ -1,0 +1,13 @@
+// Thickness and the place on the other side of thin skin, a texel, from those of the vertices (frame/opposite.h).
+// Shader: opposite.comp.
+#pragma once
+
+#include "renderer/passes/resources.h"
+
+namespace cutis {
+
+// Fills surface.opposite. `vertices` holds a shared::OppositeVertex for each skin vertex.
+void recordOpposite(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene, const gpu::Buffer& vertices,
+                    SurfaceImages& surface);
+
+}  // namespace cutis
