@@ -13,7 +13,8 @@ layout(binding = 1, rgba32f) writeonly uniform image2DArray target;  // six face
 
 layout(push_constant, scalar) uniform Push {
     float sigma;  // radians
-    float step;   // radians between samples
+    float reach;  // radians from the centre to the last sample
+    int rings;    // samples along the reach
 } push;
 
 void main() {
@@ -22,15 +23,14 @@ void main() {
     if (at.x >= size || at.y >= size) return;
     vec3 n = normalize(cubeDirection(cubeFace(at.z), cubeTexelCentre(at.xy, size)));
     mat3 frame = frameAlong(n, vec3(0.0));
-    float reach = min(3.2 * push.sigma, 3.1);
-    int count = int(reach / push.step);
+    float step = push.reach / float(push.rings);
     vec3 sum = vec3(0.0);
     float total = 0.0;
-    for (int j = -count; j <= count; ++j) {
-        for (int i = -count; i <= count; ++i) {
-            vec2 p = vec2(i, j) * push.step;  // polar coordinates around n, laid out flat
+    for (int j = -push.rings; j <= push.rings; ++j) {
+        for (int i = -push.rings; i <= push.rings; ++i) {
+            if (i * i + j * j > push.rings * push.rings) continue;
+            vec2 p = vec2(i, j) * step;  // polar coordinates around n, laid out flat
             float angle = length(p);
-            if (angle > reach) continue;
             float stretch = angle > 1e-4 ? sin(angle) / angle : 1.0;  // area of the sphere per area of the layout
             float weight = exp((cos(angle) - 1.0) / (push.sigma * push.sigma)) * stretch;
             vec3 d = frame * vec3(p * stretch, cos(angle));

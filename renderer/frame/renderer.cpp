@@ -151,11 +151,14 @@ void prepareEnvironment(FrameContext& frame, const RenderInput& input, Environme
 void uploadEnvironment(FrameContext& frame) {
     const EnvironmentSettings& settings = frame.input->rig.environment;
     const double angle = settings.rotation * 3.14159265358979323846 / 180;
-    const std::vector<shared::EnvironmentSource>& sources = frame.environmentMaps.sources;
+    std::vector<shared::EnvironmentSource> sources = frame.environmentMaps.mediumSources;
+    const std::vector<shared::EnvironmentSource>& rough = frame.environmentMaps.roughSources;
+    const auto mediumCount = static_cast<std::uint32_t>(sources.size());
+    sources.insert(sources.end(), rough.begin(), rough.end());
     const std::vector<shared::EnvironmentSettingsData> data{{static_cast<float>(std::cos(angle)),
                                                              static_cast<float>(std::sin(angle)),
                                                              static_cast<float>(settings.intensity),
-                                                             static_cast<std::uint32_t>(sources.size())}};
+                                                             mediumCount, static_cast<std::uint32_t>(rough.size())}};
     frame.environmentSettings =
         gpu::Buffer(*frame.device, {.name = "environment settings",
                                     .bytes = sizeof(data[0]) + sources.size() * sizeof(sources[0])});

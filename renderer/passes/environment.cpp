@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace cutis {
 namespace {
 
 constexpr const char* kCacheKind = "environment";
-constexpr std::uint64_t kCacheVersion = 3;  // grows with every change of what the shaders write
+constexpr std::uint64_t kCacheVersion = 4;  // grows with every change of what the shaders write
 
 template <class T>
 std::uint64_t hashValue(const T& value, std::uint64_t seed) {
@@ -58,23 +59,23 @@ class Prefilter {
     }
 
   private:
-    // All mips of some layers, on their way from the device to the cache.
+    // Cubes on their way from the device to the cache.
     struct Pending {
         std::uint64_t key;
-        std::vector<gpu::Readback> mips;
+        std::vector<gpu::Readback> cubes;
     };
 
-    // The cached contents of those layers, or those that `record` makes.
+    // The cached contents of those cubes, one mip of each, or those that `record` makes.
     template <class Record>
-    void fill(const gpu::ImageView& layers, std::uint64_t key, Record record) {
+    void fill(const std::vector<gpu::ImageView>& cubes, std::uint64_t key, Record record) {
         std::uint64_t bytes = 0;
-        for (std::uint32_t mip = 0; mip < layers.mipCount(); ++mip) bytes += bytesOf(layers.mip(mip));
+        for (const gpu::ImageView& cube : cubes) bytes += bytesOf(cube);
         const std::vector<std::byte> cached = readCache(kCacheKind, key);
         if (cached.size() == bytes) {
             std::span<const std::byte> rest(cached);
-            for (std::uint32_t mip = 0; mip < layers.mipCount(); ++mip) {
-                const std::uint64_t size = bytesOf(layers.mip(mip));
-                commands_.upload(layers.mip(mip), rest.first(size));
+            for (const gpu::ImageView& cube : cubes) {
+                const std::uint64_t size = bytesOf(cube);
+                commands_.upload(cube, rest.first(size));
                 rest = rest.subspan(size);
             }
             return;
@@ -83,8 +84,7 @@ class Prefilter {
         record();
         commands_.endPass();
         Pending pending{key, {}};
-        for (std::uint32_t mip = 0; mip < layers.mipCount(); ++mip)
-            pending.mips.push_back(commands_.readback(layers.mip(mip)));
+        for (const gpu::ImageView& cube : cubes) pending.cubes.push_back(commands_.readback(cube));
         pending_.push_back(std::move(pending));
     }
 
@@ -94,8 +94,8 @@ class Prefilter {
 
     static void save(const Pending& pending) {
         std::vector<std::byte> payload;
-        for (const gpu::Readback& mip : pending.mips)
-            payload.insert(payload.end(), mip.bytes().begin(), mip.bytes().end());
+        for (const gpu::Readback& cube : pending.cubes)
+            payload.insert(payload.end(), cube.bytes().begin(), cube.bytes().end());
         writeCache(kCacheKind, pending.key, payload);
     }
 
@@ -111,12 +111,12 @@ class Prefilter {
         const gpu::Buffer buffer = uploaded("environment clusters", sources.sources);
         const std::uint64_t key = hashValue(sources.face, key_);
         maps.irradiance = makeCube(device_, "environment irradiance", sources.face, 1, 1);
-        fill(maps.irradiance, key, [&] { sumSources(sources, buffer, nullptr, maps.irradiance); });
+        fill({maps.irradiance}, key, [&] { sumSources(sources, buffer, nullptr, maps.irradiance); });
         if (skins.empty()) return;
         maps.matte = makeCube(device_, "environment matte", sources.face, std::uint32_t(skins.size()), 1);
         for (std::uint32_t i = 0; i < skins.size(); ++i) {
             const gpu::ImageView cube = maps.matte.layers(6 * i, 6);
-            fill(cube, hashValue(skins[i], key), [&] { sumSources(sources, buffer, &skins[i], cube); });
+            fill({cube}, hashValue(skins[i], key), [&] { sumSources(sources, buffer, &skins[i], cube); });
         }
     }
 
@@ -147,40 +147,91 @@ class Prefilter {
                            gpu::groupsFor(fine, sources.face, sources.face));
     }
 
-    void makeRadiance(EnvironmentMaps& maps) {
-        EnvironmentParts parts = separateSources(environment_);
-        maps.sources = std::move(parts.sources);
-        maps.radiance = makeCube(device_, "environment radiance", shared::ENVIRONMENT_FACE,
-                                 shared::ENVIRONMENT_CUBES, shared::ENVIRONMENT_MIPS);
-        fill(maps.radiance, hashValue(shared::ENVIRONMENT_LOBES, key_), [&] {
-            makeLobes(environment_, maps.radiance.layers(6 * shared::ENVIRONMENT_ALL, 12));
-            makeLobes(parts.soft, maps.radiance.layers(6 * shared::ENVIRONMENT_SOFT, 12));
-        });
+    // One lobe of a set, six faces.
+    static gpu::ImageView lobeCube(const EnvironmentMaps& maps, std::uint32_t set, std::uint32_t lobe) {
+        return maps.radiance.layers(6 * shared::environmentLobeCube(set, lobe), 6)
+            .mip(shared::environmentLobeMip(lobe));
     }
 
-    // All lobes of one pair of cubes, each from the one two before it: variances add up.
-    void makeLobes(const Environment& environment, const gpu::ImageView& pair) {
+    void makeRadiance(EnvironmentMaps& maps) {
+        using namespace shared;
+        maps.radiance =
+            makeCube(device_, "environment radiance", ENVIRONMENT_FACE, ENVIRONMENT_CUBES, ENVIRONMENT_MIPS);
+        commands_.clear(maps.radiance, {0, 0, 0, 0});  // cubes of the fine lobes have no coarse ones
+        const std::uint64_t key = hashValue(ENVIRONMENT_LOBES, key_);
+        fill(lobesOf(maps, ENVIRONMENT_ALL), key, [&] { makeLobes(environment_, maps, ENVIRONMENT_ALL); });
+        maps.mediumSources = makeSet(maps, ENVIRONMENT_MEDIUM, kMediumSourceSpread, key);
+        maps.roughSources = makeSet(maps, ENVIRONMENT_ROUGH, kRoughSourceSpread, key);
+    }
+
+    static std::vector<gpu::ImageView> lobesOf(const EnvironmentMaps& maps, std::uint32_t set) {
+        std::vector<gpu::ImageView> cubes;
+        for (std::uint32_t lobe = shared::environmentFirstLobe(set); lobe < shared::ENVIRONMENT_LOBES; ++lobe)
+            cubes.push_back(lobeCube(maps, set, lobe));
+        return cubes;
+    }
+
+    // Fills a set that lacks the environment's compact sources, and gives those.
+    std::vector<shared::EnvironmentSource> makeSet(const EnvironmentMaps& maps, std::uint32_t set,
+                                                   double maxSpread, std::uint64_t key) {
+        key = hashValue(maxSpread, hashValue(set, key));
+        const std::vector<std::byte> cached = readCache("environment-sources", key);
+        std::vector<shared::EnvironmentSource> sources(cached.size() / sizeof(shared::EnvironmentSource));
+        std::memcpy(sources.data(), cached.data(), sources.size() * sizeof(sources[0]));
+        std::optional<EnvironmentParts> parts;
+        if (sources.empty()) {
+            parts = separateSources(environment_, maxSpread);
+            sources = parts->sources;
+            writeCache("environment-sources", key, std::as_bytes(std::span(sources)));
+        }
+        fill(lobesOf(maps, set), key, [&] {
+            if (!parts) parts = separateSources(environment_, maxSpread);
+            makeLobes(parts->rest, maps, set);
+        });
+        return sources;
+    }
+
+    // All lobes of a set, each from the one before it: variances add up. Those that the set does not keep are
+    // made aside.
+    void makeLobes(const Environment& environment, const EnvironmentMaps& maps, std::uint32_t set) {
         struct Push {
-            float sigma, step;
+            float sigma, reach;
+            std::int32_t rings;
         };
-        const auto image = [&](std::uint32_t lobe) { return pair.layers(6 * (lobe % 2), 6).mip(lobe / 2); };
+        constexpr double kReach = 3.2;  // of the Gaussian's own σ
+        // What is left of the variance of a Gaussian in two dimensions that ends there.
+        const double edge = std::exp(-kReach * kReach / 2),
+                     kept = 1 - kReach * kReach / 2 * edge / (1 - edge);
         const auto spread = [](std::uint32_t lobe) {
             return lobe == 0 ? shared::ENVIRONMENT_SPREAD_0
                              : shared::ENVIRONMENT_SPREAD * std::exp2(0.5 * lobe);
         };
-        resample(environment, image(0));
+        std::vector<gpu::Image> aside;
+        gpu::ImageView from;
         const gpu::Program& program = device_.program("environment_filter.comp");
-        for (std::uint32_t lobe = 1; lobe < shared::ENVIRONMENT_LOBES; ++lobe) {
-            const std::uint32_t from = lobe < 2 ? 0 : lobe - 2;
-            const gpu::ImageView target = image(lobe);
-            // Interpolation of the result adds a sixth of a texel squared along each axis on average.
-            const double texel = 2.0 / target.width(), interpolation = texel * texel / 6;
-            const double own =
-                std::sqrt(spread(lobe) * spread(lobe) - spread(from) * spread(from) - interpolation);
-            commands_.dispatch(program,
-                               {{"source", gpu::sampled(image(from), device_.sampler())}, {"target", target}},
-                               Push{float(own), float(spread(lobe) / 2)},
-                               gpu::groupsFor(program, target.width(), target.width(), 6));
+        for (std::uint32_t lobe = 0; lobe < shared::ENVIRONMENT_LOBES; ++lobe) {
+            gpu::ImageView target;
+            if (lobe < shared::environmentFirstLobe(set)) {
+                aside.push_back(makeCube(device_, "environment aside", shared::ENVIRONMENT_FACE, 1, 1));
+                target = aside.back();
+            } else {
+                target = lobeCube(maps, set, lobe);
+            }
+            if (lobe == 0) {
+                resample(environment, target);
+            } else {
+                // Interpolation of the result adds a sixth of a texel squared along each axis on average.
+                const double texel = 2.0 / target.width(), interpolation = texel * texel / 6;
+                const double before = spread(lobe - 1), all = spread(lobe);
+                const double own = std::sqrt((all * all - before * before - interpolation) / kept);
+                // Samples no further apart than lobe 0 has texels; what is smooth already needs fewer.
+                const std::int32_t rings = lobe == 1 ? 5 : 3;
+                commands_.dispatch(program,
+                                   {{"source", gpu::sampled(from, device_.sampler())}, {"target", target}},
+                                   Push{float(own), float(kReach * own), rings},
+                                   gpu::groupsFor(program, target.width(), target.width(), 6));
+            }
+            from = target;
         }
     }
 

@@ -26,9 +26,11 @@ struct EnvironmentMaps {
     gpu::Image irradiance;  // cube by surface normal: ∫ L (N·ω) dω
     gpu::Image matte;  // cube array, one layer each kind of skin: ∫ L min(ρ_dt(N·ω, m), 1/s) (N·ω) dω, so
                        // that irradiance - s·matte is what enters the skin; none without skin
-    gpu::Image radiance;                             // cube array, laid out by shaders/shared/environment.h
-    std::vector<shared::EnvironmentSource> sources;  // compact sources, not in the soft cubes of `radiance`
-    double gpuMs = 0;                                // spent on filtering: 0 when all came from the cache
+    gpu::Image radiance;  // cube array, laid out by shaders/shared/environment.h
+    std::vector<shared::EnvironmentSource>
+        mediumSources;  // what the set ENVIRONMENT_MEDIUM of `radiance` lacks
+    std::vector<shared::EnvironmentSource> roughSources;  // what ENVIRONMENT_ROUGH lacks
+    double gpuMs = 0;  // spent on filtering: 0 when all came from the cache
 };
 
 // Filters on the device, or takes the result from the cache, where it is kept by the content of the

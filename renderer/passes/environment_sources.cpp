@@ -16,7 +16,6 @@ namespace {
 constexpr std::size_t kMaxPeaks = 256;
 constexpr double kPeakOverMean = 8;
 constexpr int kMaxSources = 32;
-constexpr double kMaxSourceSpread = 0.05;
 constexpr double kNearby = 0.03;             // radians: sources this near share a terminator
 constexpr double kCoarseTolerance = 0.0015;  // of the mean irradiance: error that faint sources may leave,
 constexpr double kFineTolerance = 0.006;     // and bright ones
@@ -87,8 +86,8 @@ EnvironmentPeaks separatePeaks(const Environment& environment) {
     return result;
 }
 
-EnvironmentParts separateSources(const Environment& environment) {
-    EnvironmentSplit split = splitEnvironment(environment, kMaxSources, 0, 1, kMaxSourceSpread);
+EnvironmentParts separateSources(const Environment& environment, double maxSpread) {
+    EnvironmentSplit split = splitEnvironment(environment, kMaxSources, 0, 1, maxSpread);
     EnvironmentParts parts{{}, std::move(split.residual)};
     for (const LightSample& sample : split.samples) {
         const double variance = sample.radius * sample.radius / 2;  // of the angle, rad²

@@ -34,12 +34,17 @@ struct EnvironmentPeaks {
 // Peaks are what exceeds the 256th brightest texel, or 8 times the mean where that is more.
 EnvironmentPeaks separatePeaks(const Environment& environment);
 
-// An environment as compact sources, brighter than what is around them, and all else. Together they are the
-// environment.
+// An environment as compact sources, at most 32, brighter than what is around them, and all else. Together
+// they are the environment.
 struct EnvironmentParts {
-    std::vector<shared::EnvironmentSource> sources;  // at most 32, of at most 0.05 rad rms
-    Environment soft;
+    std::vector<shared::EnvironmentSource> sources;
+    Environment rest;
 };
-EnvironmentParts separateSources(const Environment& environment);
+EnvironmentParts separateSources(const Environment& environment, double maxSpread);
+
+// Largest rms radius in radians of the sources that surfaces of medium roughness, and rough ones, reflect
+// apart (shaders/shared/environment.h). A source is reflected as if it were round and Gaussian, which shows
+// once it is as wide as the surface's own lobe: at grazing views that is a fraction of m.
+inline constexpr double kMediumSourceSpread = 0.012, kRoughSourceSpread = 0.05;
 
 }  // namespace cutis

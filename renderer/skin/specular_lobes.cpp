@@ -8,6 +8,7 @@
 
 #include "renderer/core/files.h"
 #include "renderer/skin/specular.h"
+#include "shaders/shared/environment.h"
 
 namespace cutis::skin {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kSamples = 768;
 constexpr int kFirstIterations = 150, kIterations = 40;
-constexpr std::uint64_t kCacheVersion = 1;  // grows with every change of the fit
+constexpr std::uint64_t kCacheVersion = 2;  // grows with every change of the fit
 
 struct WeightedDirection {
     glm::dvec3 direction;
@@ -48,32 +49,55 @@ std::vector<WeightedDirection> drawReflections(double mu, double m) {
     return drawn;
 }
 
-// Logarithm of what a lobe's exp((cosθ - 1)/σ²) is multiplied by: its weight over the integral 2πσ²(1 -
+// exp(scale + sharpness (cosθ - 1)), with σ = sharpness^(-1/2), times `share` over its integral 2πσ²(1 -
 // exp(-2/σ²)).
-double logScale(const SpecularLobe& lobe) {
-    const double variance = lobe.sigma * lobe.sigma;
-    const double share = lobe.paired ? lobe.weight / 2 : lobe.weight;
-    return std::log(std::max(share, 1e-300) / (2 * kPi * variance * -std::expm1(-2 / variance)));
+struct Gaussian {
+    double scale, sharpness;
+
+    Gaussian(double variance, double share)
+        : scale(std::log(std::max(share, 1e-300) / (2 * kPi * variance * -std::expm1(-2 / variance)))),
+          sharpness(1 / variance) {}
+    double operator()(double cosine) const { return std::exp(scale + sharpness * (cosine - 1)); }
+};
+
+double prefilteredVariance(std::uint32_t lobe) {
+    const double spread =
+        lobe == 0 ? shared::ENVIRONMENT_SPREAD_0 : shared::ENVIRONMENT_SPREAD * std::exp2(0.5 * lobe);
+    return spread * spread;
+}
+
+// A lobe as shaders see it: the two prefiltered ones of which it is between, mixed by variance.
+struct LookedUpLobe {
+    Gaussian narrow, wide;
+
+    double operator()(double cosine) const { return narrow(cosine) + wide(cosine); }
+};
+
+LookedUpLobe lookedUp(const SpecularLobe& lobe, double m) {
+    const double variance = lobe.sigma * lobe.sigma, share = lobe.paired ? lobe.weight / 2 : lobe.weight;
+    std::uint32_t below = shared::environmentFirstLobe(shared::environmentSet(float(m)));
+    while (below + 2 < shared::ENVIRONMENT_LOBES && prefilteredVariance(below + 1) < variance) ++below;
+    const double a = prefilteredVariance(below), b = prefilteredVariance(below + 1);
+    const double f = std::clamp((variance - a) / (b - a), 0.0, 1.0);
+    return {Gaussian(a, share * (1 - f)), Gaussian(b, share * f)};
 }
 
 // One step: every sample is shared out among the lobes by what they contribute there; each lobe then takes
 // the mean direction, spread and weight of its share. The length of the mean of unit vectors is coth(1/σ²) -
 // σ² ≈ 1 - σ².
-void improveLobes(std::vector<SpecularLobe>& lobes, const std::vector<WeightedDirection>& samples) {
+void improveLobes(std::vector<SpecularLobe>& lobes, const std::vector<WeightedDirection>& samples, double m) {
     const std::size_t n = lobes.size();
-    std::vector<double> scale(n), part(2 * n), weight(n, 0);
+    std::vector<LookedUpLobe> density;
+    std::vector<double> part(2 * n), weight(n, 0);
     std::vector<glm::dvec3> moment(n, glm::dvec3(0));
-    for (std::size_t k = 0; k < n; ++k) scale[k] = logScale(lobes[k]);
+    for (const SpecularLobe& lobe : lobes) density.push_back(lookedUp(lobe, m));
     for (const WeightedDirection& sample : samples) {
         double total = 0;
         for (std::size_t k = 0; k < n; ++k) {
             const SpecularLobe& lobe = lobes[k];
-            const double sharpness = 1 / (lobe.sigma * lobe.sigma);
-            const auto density = [&](const glm::dvec3& d) {
-                return std::exp(scale[k] + sharpness * (glm::dot(sample.direction, d) - 1));
-            };
-            part[2 * k] = density(lobe.direction);
-            part[2 * k + 1] = lobe.paired ? density(mirrored(lobe.direction)) : 0;
+            part[2 * k] = density[k](glm::dot(sample.direction, lobe.direction));
+            part[2 * k + 1] =
+                lobe.paired ? density[k](glm::dot(sample.direction, mirrored(lobe.direction))) : 0;
             total += part[2 * k] + part[2 * k + 1];
         }
         if (!(total > 0)) continue;
@@ -124,7 +148,7 @@ std::vector<std::vector<SpecularLobe>> fitSpecularLobes(double m) {
         const double t = double(j) / (LOBE_ROWS - 1);
         const std::vector<WeightedDirection> samples = drawReflections(std::max(t * t, 1e-3), m);
         const int iterations = j == LOBE_ROWS - 1 ? kFirstIterations : kIterations;
-        for (int i = 0; i < iterations; ++i) improveLobes(lobes, samples);
+        for (int i = 0; i < iterations; ++i) improveLobes(lobes, samples, m);
         rows[j] = lobes;
     }
     return rows;

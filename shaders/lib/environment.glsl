@@ -5,7 +5,7 @@
 //   samplerCube environmentIrradiance;              (not with ENVIRONMENT_SPECULAR_ONLY)
 //   samplerCubeArray environmentRadiance;
 //   EnvironmentSettingsData environment;            (shared/scene.h)
-//   EnvironmentSource environmentSources[];         (environment.sourceCount of them, shared/environment.h)
+//   EnvironmentSource environmentSources[];         (shared/environment.h; medium, then rough)
 //   float environmentVisibility(vec3 direction);    (share of the light from there that arrives)
 // and, for skin, ALBEDO_TABLE as lib/skin_specular.glsl wants it.
 #ifndef CUTIS_ENVIRONMENT_GLSL
@@ -40,12 +40,15 @@ float environmentLobeNumber(float sigma) {
     return min(1.0 + whole + exp2(doublings - whole) - 1.0, float(ENVIRONMENT_LOBES - 1u));
 }
 
-// Radiance from around a direction, averaged over a lobe; `cubes` is ENVIRONMENT_ALL or ENVIRONMENT_SOFT.
-vec3 environmentRadianceAt(vec3 direction, float lobe, uint cubes) {
+// Radiance from around a direction, averaged over a lobe; `set` is ENVIRONMENT_ALL, _MEDIUM or _ROUGH.
+vec3 environmentRadianceAt(vec3 direction, float lobe, uint set) {
     vec3 d = toEnvironment(direction);
+    lobe = max(lobe, float(environmentFirstLobe(set)));
     uint below = uint(lobe), above = min(below + 1u, ENVIRONMENT_LOBES - 1u);
-    vec3 a = textureLod(environmentRadiance, vec4(d, float(cubes + (below & 1u))), float(below >> 1)).rgb;
-    vec3 b = textureLod(environmentRadiance, vec4(d, float(cubes + (above & 1u))), float(above >> 1)).rgb;
+    vec3 a = textureLod(environmentRadiance, vec4(d, float(environmentLobeCube(set, below))),
+                        float(environmentLobeMip(below))).rgb;
+    vec3 b = textureLod(environmentRadiance, vec4(d, float(environmentLobeCube(set, above))),
+                        float(environmentLobeMip(above))).rgb;
     return mix(a, b, lobe - float(below)) * environment.intensity;
 }
 
@@ -65,10 +68,20 @@ SourceLight environmentSource(uint i) {
     return SourceLight(d, source.flux * (environment.intensity * environmentVisibility(d)), 2.0 - 2.0 * len);
 }
 
-// Surfaces rougher than this (m or alpha) see compact sources apart from the rest of the environment. The source's own
-// extent widens the lobe: an angle δ is a slope δ/2.
-const float kSoftRoughness = 0.03;
+// What a surface of some roughness (m or alpha) looks up, and the sources that it reflects apart from that.
+struct EnvironmentView {
+    uint set;
+    uint first, end;  // of environmentSources
+};
 
+EnvironmentView environmentView(float roughness) {
+    uint set = environmentSet(roughness), medium = environment.mediumSources;
+    if (set == ENVIRONMENT_ALL) return EnvironmentView(set, 0u, 0u);
+    if (set == ENVIRONMENT_MEDIUM) return EnvironmentView(set, 0u, medium);
+    return EnvironmentView(set, medium, medium + environment.roughSources);
+}
+
+// The source's own extent widens the lobe: an angle δ is a slope δ/2.
 float widenedRoughness(float roughness, SourceLight source) {
     return min(sqrt(roughness * roughness + 0.25 * source.variance), 1.0);
 }
@@ -79,8 +92,7 @@ vec3 environmentSpecularGgx(vec3 n, vec3 v, float alpha, vec3 f0) {
     const int kTaps = 16;
     mat3 frame = frameAlong(n, v);
     float nv = max(dot(n, v), 1e-3), a2 = alpha * alpha;
-    bool soft = alpha > kSoftRoughness;
-    uint cubes = soft ? ENVIRONMENT_SOFT : ENVIRONMENT_ALL;
+    EnvironmentView map = environmentView(alpha);
     vec3 sum = vec3(0.0);
     for (int k = 0; k < kTaps; ++k) {
         vec2 u = spiralPoint(k, kTaps);
@@ -97,10 +109,10 @@ vec3 environmentSpecularGgx(vec3 n, vec3 v, float alpha, vec3 f0) {
         float pdf = a2 / (3.14159265358979 * k2 * k2) * cosine / (4.0 * vh);
         float sigma = min(sqrt(1.0 / (float(kTaps) * pdf * 4.0)), 0.5);
         sum += schlick(f0, vh) * (weight * environmentVisibility(l)) *
-               environmentRadianceAt(l, environmentLobeNumber(sigma), cubes);
+               environmentRadianceAt(l, environmentLobeNumber(sigma), map.set);
     }
     sum /= float(kTaps);
-    for (uint i = 0u; soft && i < environment.sourceCount; ++i) {
+    for (uint i = map.first; i < map.end; ++i) {
         SourceLight source = environmentSource(i);
         float nl = dot(n, source.direction);
         if (nl <= 0.0) continue;
@@ -114,9 +126,9 @@ vec3 environmentSpecularGgx(vec3 n, vec3 v, float alpha, vec3 f0) {
 
 #ifdef ALBEDO_TABLE
 // Light through one lobe of the skin's table, `direction` in the columns of `frame`.
-vec3 environmentThroughLobe(mat3 frame, vec3 direction, float lobe, uint cubes) {
+vec3 environmentThroughLobe(mat3 frame, vec3 direction, float lobe, uint set) {
     vec3 l = frame * direction;
-    return environmentVisibility(l) * environmentRadianceAt(l, lobe, cubes);
+    return environmentVisibility(l) * environmentRadianceAt(l, lobe, set);
 }
 
 // Reflected radiance of skin, ∫ L f_s (N·ω) dω: `m` rms slope, `s` specular scale, `row` of the table of roughness m.
@@ -130,8 +142,7 @@ vec3 environmentSpecularSkin(vec3 n, vec3 v, float m, float s, uint row) {
     uint j = min(uint(x), uint(LOBE_ROWS - 2));
     float f = x - float(j);
     uint at = row * uint(SKIN_TABLE_STRIDE) + uint(ALBEDO_ROW_SIZE) + j * uint(LOBE_ROW_SIZE);
-    bool soft = m > kSoftRoughness;
-    uint cubes = soft ? ENVIRONMENT_SOFT : ENVIRONMENT_ALL;
+    EnvironmentView map = environmentView(m);
     vec3 sum = vec3(0.0);
     float total = 0.0;
     for (int k = 0; k < LOBES_IN_PLANE + LOBE_PAIRS; ++k) {
@@ -142,10 +153,10 @@ vec3 environmentSpecularSkin(vec3 n, vec3 v, float m, float s, uint row) {
         }
         vec3 direction = normalize(vec3(entry[0], entry[1], entry[2]));
         float lobe = environmentLobeNumber(entry[3]);
-        vec3 light = environmentThroughLobe(frame, direction, lobe, cubes);
+        vec3 light = environmentThroughLobe(frame, direction, lobe, map.set);
         if (k >= LOBES_IN_PLANE) {
             vec3 mirrored = vec3(direction.x, -direction.y, direction.z);
-            light = 0.5 * (light + environmentThroughLobe(frame, mirrored, lobe, cubes));
+            light = 0.5 * (light + environmentThroughLobe(frame, mirrored, lobe, map.set));
         }
         sum += entry[4] * light;
         total += entry[4];
@@ -153,7 +164,7 @@ vec3 environmentSpecularSkin(vec3 n, vec3 v, float m, float s, uint row) {
     float albedo = directionalAlbedo(mu, row);
     sum *= min(s * albedo, 1.0) / total;
     float scale = clampedSpecularScale(s, albedo);
-    for (uint i = 0u; soft && i < environment.sourceCount; ++i) {
+    for (uint i = map.first; i < map.end; ++i) {
         SourceLight source = environmentSource(i);
         float lobe = kelemenSpecular(n, v, source.direction, widenedRoughness(m, source));
         sum += source.flux * (scale * lobe * max(dot(n, source.direction), 0.0));

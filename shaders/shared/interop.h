@@ -8,6 +8,7 @@
 //         mat4 toLight;   // world to clip
 //     };
 //     const uint kMaxTextures = 16;
+//     CUTIS_SHARED_FUNCTION uint half(uint n) { return n / 2u; }
 //     CUTIS_SHARED_END
 //
 // GLSL blocks that hold such structs use `layout(scalar)`: then both sides have the same offsets, without padding
@@ -40,6 +41,7 @@ static_assert(sizeof(vec3) == 12 && sizeof(mat3) == 36 && sizeof(mat4) == 64, "g
 
 #define CUTIS_SHARED_BEGIN namespace cutis::shared {
 #define CUTIS_SHARED_END }
+#define CUTIS_SHARED_FUNCTION inline
 
 #else
 
@@ -47,6 +49,7 @@ static_assert(sizeof(vec3) == 12 && sizeof(mat3) == 36 && sizeof(mat4) == 64, "g
 
 #define CUTIS_SHARED_BEGIN
 #define CUTIS_SHARED_END
+#define CUTIS_SHARED_FUNCTION
 
 #endif
 

@@ -153,7 +153,9 @@ struct ShadedPoint {
 struct EnvironmentSettingsData {
     float cosRotation, sinRotation;
     float intensity;
-    uint sourceCount;  // EnvironmentSource that follow in the same buffer (shared/environment.h)
+    // EnvironmentSource that follow in the same buffer (shared/environment.h): what surfaces of medium roughness reflect
+    // apart, then what rough ones do.
+    uint mediumSources, roughSources;
 };
 
 // A direction in which the environment's visibility is known, and the light that arrives from around it.

@@ -27,14 +27,15 @@ std::vector<glm::vec3> lookUp(const EnvironmentMaps& maps, const LookupSettings&
     commands.upload(input, std::as_bytes(queries));
     const gpu::Buffer output(device, {.name = "results", .bytes = queries.size() * sizeof(glm::vec3)});
     const double angle = settings.rotation * std::numbers::pi / 180;
-    const shared::EnvironmentSettingsData environment{float(std::cos(angle)), float(std::sin(angle)),
-                                                      float(settings.intensity),
-                                                      unsigned(maps.sources.size())};
+    const shared::EnvironmentSettingsData environment{
+        float(std::cos(angle)), float(std::sin(angle)), float(settings.intensity),
+        unsigned(maps.mediumSources.size()), unsigned(maps.roughSources.size())};
+    std::vector<shared::EnvironmentSource> sources = maps.mediumSources;
+    sources.insert(sources.end(), maps.roughSources.begin(), maps.roughSources.end());
     const gpu::Buffer settingsBuffer(
-        device,
-        {.name = "settings", .bytes = sizeof(environment) + maps.sources.size() * sizeof(maps.sources[0])});
+        device, {.name = "settings", .bytes = sizeof(environment) + sources.size() * sizeof(sources[0])});
     commands.upload(settingsBuffer, std::as_bytes(std::span(&environment, 1)));
-    if (!maps.sources.empty()) commands.upload(settingsBuffer, maps.sources, sizeof(environment));
+    if (!sources.empty()) commands.upload(settingsBuffer, sources, sizeof(environment));
     std::vector<float> row = skin::directionalAlbedoRow(settings.roughness);
     const std::vector<float> lobes = skin::specularLobeTable(settings.roughness);
     row.insert(row.end(), lobes.begin(), lobes.end());
