@@ -29,6 +29,7 @@ std::vector<const Option*> optionsOf(const Command& command);
 std::span<const Command> commands();
 
 int runRender(const Request& request);
+int runReference(const Request& request);
 int runRigList(const Request& request);
 int runRigShow(const Request& request);
 int runRigCheck(const Request& request);

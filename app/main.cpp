@@ -23,6 +23,11 @@ std::span<const Command> commands() {
         {"", "render", "SCENE", 1, 1, kRender, true, "One picture of a glTF scene",
          "SCENE is a .gltf or .glb file, or 'default' for the scene of real people that set-up installs.",
          runRender},
+        {"", "reference", "SCENE", 1, 1, kReference, true, "The same picture evaluated exactly, on the CPU",
+         "Takes what cutis render takes; what only concerns the GPU has no effect. It works until the standard error is "
+         "below --error or --budget is spent, and prints the error that it reached. Interrupted (Ctrl-C) or asked again "
+         "for less error, it goes on from where it was: its state lies in the cache.",
+         runReference},
         {"rig", "list", "", 0, 0, kNoCommand, false, "The built-in lighting presets", "", runRigList},
         {"rig", "show", "RIG", 1, 1, kNoCommand, false,
          "A rig file or preset as a rig file, on standard output",

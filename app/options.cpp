@@ -7,6 +7,7 @@
 
 #include "app/usage_error.h"
 #include "renderer/core/suggest.h"
+#include "renderer/reference/reference.h"
 #include "renderer/scene/presets.h"
 
 namespace cutis::app {
@@ -16,6 +17,8 @@ constexpr int kMaxSide = 16384;                  // pixels
 constexpr std::int64_t kMaxPixels = 1 << 26;     // 1 GiB as float RGBA
 constexpr int kMinAtlas = 8, kMaxAtlas = 16384;  // texels
 constexpr int kMaxGaussians = 32;
+constexpr double kMaxSeconds = 3.6e6;
+constexpr unsigned kPicture = kRender | kReference;  // the same picture in two ways: the same options
 constexpr double kMaxExposure = 64, kMaxIntensity = 1e12, kMaxTurn = 36000;
 
 [[noreturn]] void refuse(const std::string& text, const std::string& must) {
@@ -66,8 +69,8 @@ void parseSize(Request& request, const std::string& text) {
         refuse(text, "at most " + std::to_string(kMaxPixels) + " pixels");
 }
 
-void parseAovs(Request& request, const std::string& text) {
-    const std::vector<std::string> known(std::begin(kAovNames), std::end(kAovNames));
+void parseAovs(Request& request, const std::string& text, std::span<const char* const> names) {
+    const std::vector<std::string> known(names.begin(), names.end());
     std::vector<std::string>& aovs = request.settings.aovs;
     for (std::size_t start = 0; start <= text.size();) {
         const std::size_t comma = std::min(text.find(',', start), text.size());
@@ -106,10 +109,38 @@ void addOutput(Request& request, const std::string& text, const std::vector<std:
     request.outputs.push_back(path);
 }
 
-std::string aovList() {
+std::string listOf(std::span<const char* const> names) {
     std::string list;
-    for (const char* name : kAovNames) list += (list.empty() ? "" : ", ") + std::string(name);
+    for (const char* name : names) list += (list.empty() ? "" : ", ") + std::string(name);
     return list;
+}
+
+// "0.2%" or "0.002".
+double parseShare(const std::string& text) {
+    const bool percent = text.ends_with('%');
+    const auto share = [&] { return parseNumber(percent ? text.substr(0, text.size() - 1) : text, 0, 100); };
+    try {
+        const double value = percent ? share() / 100 : share();
+        if (value > 0 && value <= 1) return value;
+    } catch (const UsageError&) {
+    }
+    refuse(text, "a share above 0 and up to 1, as in 0.2% or 0.002");
+}
+
+// Seconds of "60s", "5m", "1.5h" or "60".
+double parseDuration(const std::string& text) {
+    double unit = 1;
+    std::string number = text;
+    if (!text.empty() && std::string("smh").find(text.back()) != std::string::npos) {
+        unit = text.back() == 'h' ? 3600 : text.back() == 'm' ? 60 : 1;
+        number.pop_back();
+    }
+    try {
+        const double value = parseNumber(number, 0, kMaxSeconds) * unit;
+        if (value > 0 && value <= kMaxSeconds) return value;
+    } catch (const UsageError&) {
+    }
+    refuse(text, "a time of up to 1000 hours, as in 60s, 5m or 1h");
 }
 
 std::vector<Option> makeOptions() {
@@ -118,7 +149,7 @@ std::vector<Option> makeOptions() {
     const char* const view = "View";
     const char* const quality = "Skin and quality";
     return {
-        {"-o, --output", "FILE", kRender, output,
+        {"-o, --output", "FILE", kPicture, output,
          "The picture: .exr is scene-linear float radiance with coverage as alpha, .png is exposed, tone "
          "mapped and "
          "sRGB. Repeat it for both in one run",
@@ -133,35 +164,51 @@ std::vector<Option> makeOptions() {
          }},
         {"--aov", "LIST", kRender, output,
          "Also write OUT.NAME.exr beside the first output for each name of this comma-separated list: " +
-             aovList(),
-         false, parseAovs},
-        {"--stats", "FILE", kRender, output,
+             listOf(kAovNames),
+         false, [](Request& r, const std::string& text) { parseAovs(r, text, kAovNames); }},
+        {"--aov", "LIST", kReference, output,
+         "Also write OUT.NAME.exr beside the first output for each name of this comma-separated list: " +
+             listOf(reference::kAovNames),
+         false, [](Request& r, const std::string& text) { parseAovs(r, text, reference::kAovNames); }},
+        {"--halves", "", kReference, output,
+         "Also write two estimates that share no random number, OUT.a.exr and OUT.b.exr, and OUT.a.diffuse.exr and "
+         "OUT.b.diffuse.exr: what makes an error estimate unbiased",
+         false, [](Request& r, const std::string&) { r.halves = true; }},
+        {"--stats", "FILE", kPicture, output,
          "Write what ran, what was left out and why, times and bytes as JSON", false,
          [](Request& r, const std::string& text) { r.stats = parseText(text); }},
-        {"--exposure", "EV", kRender, output,
+        {"--exposure", "EV", kPicture, output,
          "Added to the rig's exposure: each step doubles. For .png only (default: 0)", false,
          [](Request& r, const std::string& text) {
              r.exposure = parseNumber(text, -kMaxExposure, kMaxExposure);
          }},
-        {"--size", "WxH", kRender, output, "Pixels of the picture (default: 1280x720)", false, parseSize},
+        {"--size", "WxH", kPicture, output, "Pixels of the picture (default: 1280x720)", false, parseSize},
 
-        {"--rig", "RIG", kRender, light,
+        {"--error", "E", kReference, "Accuracy",
+         "Stop when the standard error of the picture and that of its diffuse light are below this, relative to them: "
+         "0.2% or 0.002 (default: 0.5% without --budget, none with it)",
+         false, [](Request& r, const std::string& text) { r.error = parseShare(text); }},
+        {"--budget", "TIME", kReference, "Accuracy",
+         "Stop after this much work, at two passes over the picture at the earliest: 60s, 5m or 1h", false,
+         [](Request& r, const std::string& text) { r.budget = parseDuration(text); }},
+
+        {"--rig", "RIG", kPicture, light,
          "The lights: a rig file, a preset (see cutis rig list), 'scene' for the scene's own, or 'none'. "
          "Default: the "
          "scene's own lights if it has any, else NAME.rig.json beside the scene NAME.gltf, else three-point",
          false, [](Request& r, const std::string& text) { r.rig = parseText(text); }},
-        {"--light", "NAME", kRender, light,
+        {"--light", "NAME", kPicture, light,
          "Only this light of the rig, switched on even where the rig has it off. Repeat it for several", true,
          [](Request& r, const std::string& text) { r.lights.push_back(parseText(text)); }},
-        {"--env", "FILE", kRender, light,
+        {"--env", "FILE", kPicture, light,
          "A lat-long environment (.exr, .hdr, …) in place of the rig's, or 'none'", false,
          [](Request& r, const std::string& text) { r.environment = parseText(text); }},
-        {"--env-intensity", "X", kRender, light,
+        {"--env-intensity", "X", kPicture, light,
          "Factor on the environment's radiance, in place of the rig's", false,
          [](Request& r, const std::string& text) {
              r.environmentIntensity = parseNumber(text, 0, kMaxIntensity);
          }},
-        {"--env-rotation", "DEG", kRender, light,
+        {"--env-rotation", "DEG", kPicture, light,
          "Turn of the environment about +Y in degrees, counter-clockwise seen from above, in place of the "
          "rig's",
          false,
@@ -169,28 +216,28 @@ std::vector<Option> makeOptions() {
              r.environmentRotation = parseNumber(text, -kMaxTurn, kMaxTurn);
          }},
 
-        {"--camera", "CAMERA", kRender, view,
+        {"--camera", "CAMERA", kPicture, view,
          "A camera's name or index, 'auto', or 'auto:AZ,EL': framed on the heads from that azimuth and "
          "elevation in "
          "degrees (default: the first camera of the scene, else auto)",
          false, [](Request& r, const std::string& text) { r.camera = parseText(text); }},
 
-        {"--skin", "GLOB", kRender, quality,
+        {"--skin", "GLOB", kPicture, quality,
          "Materials whose names match are skin, or 'none' (default: those marked in the file, else those "
          "named like "
          "skin, head, face or body)",
          false, [](Request& r, const std::string& text) { r.skin = parseText(text); }},
-        {"--irradiance-size", "N", kRender, quality,
+        {"--irradiance-size", "N", kPicture, quality,
          "The irradiance atlas is exactly N×N texels (default: chosen from the picture)", false,
          [](Request& r, const std::string& text) {
              r.settings.irradianceSize = static_cast<int>(parseInteger(text, kMinAtlas, kMaxAtlas));
          }},
-        {"--gaussians", "K", kRender, quality,
+        {"--gaussians", "K", kPicture, quality,
          "Reduce each profile to K Gaussians, faster and less exact (default: all)", false,
          [](Request& r, const std::string& text) {
              r.settings.gaussians = static_cast<int>(parseInteger(text, 1, kMaxGaussians));
          }},
-        {"--merge", "NAME", kRender, quality,
+        {"--merge", "NAME", kPicture, quality,
          "How the thicknesses that several lights see become one: min, the smallest, or opposite, the distance "
          "of the other side of the skin, whatever the lights (default: min)",
          false,
@@ -198,17 +245,17 @@ std::vector<Option> makeOptions() {
              if (text != "min" && text != "opposite") refuse(text, "min or opposite");
              r.settings.merge = text == "min" ? Merge::min : Merge::opposite;
          }},
-        {"--seed", "N", kRender, quality, "Starts the random numbers of whatever uses any (default: 0)",
+        {"--seed", "N", kPicture, quality, "Starts the random numbers of whatever uses any (default: 0)",
          false,
          [](Request& r, const std::string& text) {
              r.settings.seed =
                  static_cast<std::uint32_t>(parseInteger(text, 0, std::numeric_limits<std::uint32_t>::max()));
          }},
-        {"--no-prune", "", kRender, quality,
+        {"--no-prune", "", kPicture, quality,
          "Run also what the scene does not need, on neutral inputs, to measure what leaving it out saves",
          false, [](Request& r, const std::string&) { r.settings.prune = false; }},
 
-        {"--device", "DEVICE", kRender, "Machine",
+        {"--device", "DEVICE", kPicture, "Machine",
          "The GPU: part of its name, its index in cutis devices, or 'cpu' (default: $CUTIS_DEVICE, else the "
          "best)",
          false, [](Request& r, const std::string& text) { r.device = parseText(text); }},

@@ -28,10 +28,15 @@ struct Request {
     double exposure = 0;                                              // EV, added to the rig's
     std::string device;                                               // as gpu::DeviceOptions takes it
     RenderSettings settings;
+
+    // Of cutis reference.
+    std::optional<double> error;  // relative standard error to reach
+    double budget = 0;            // seconds; 0: none
+    bool halves = false;          // write the two independent halves as well
 };
 
 // Commands that take an option, as a set of bits.
-enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4 };
+enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4, kReference = 8 };
 
 struct Option {
     std::string_view names;    // "-o, --output", the long one last

@@ -10,6 +10,21 @@
 
 namespace cutis::app {
 
+namespace {
+
+std::atomic<std::atomic<bool>*> gentleStop{nullptr};
+std::atomic<int> firstSignal{0};
+
+}  // namespace
+
+void stopGentlyOnSignals(std::atomic<bool>* stop) {
+    gentleStop = stop;
+}
+
+int endingStatus() {
+    return firstSignal ? 128 + firstSignal : 0;
+}
+
 void endCleanlyOnSignals() {
     // A thread of its own waits for them, because a signal handler may not touch a file list or a mutex. All
     // later threads, drivers' included, inherit the mask that keeps these signals from them.
@@ -24,6 +39,11 @@ void endCleanlyOnSignals() {
     std::thread([signals] {
         int signal = 0;
         if (sigwait(&signals, &signal) != 0) return;
+        if (std::atomic<bool>* stop = gentleStop) {
+            firstSignal = signal;
+            *stop = true;
+            if (sigwait(&signals, &signal) != 0) return;
+        }
         discardTemporaryFiles();
         _exit(128 + signal);
     }).detach();
