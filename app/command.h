@@ -30,6 +30,8 @@ std::span<const Command> commands();
 
 int runRender(const Request& request);
 int runReference(const Request& request);
+int runCompare(const Request& request);
+int runMeasure(const Request& request);
 int runRigList(const Request& request);
 int runRigShow(const Request& request);
 int runRigCheck(const Request& request);

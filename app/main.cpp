@@ -28,6 +28,14 @@ std::span<const Command> commands() {
          "below --error or --budget is spent, and prints the error that it reached. Interrupted (Ctrl-C) or asked again "
          "for less error, it goes on from where it was: its state lies in the cache.",
          runReference},
+        {"", "compare", "SCENE", 1, 1, kCompare, true, "Two rigs side by side, or each light alone against all",
+         "Writes pictures, difference maps, figures and index.html, which opens from disk. With --a and --b it compares "
+         "those rigs; without, each light of the rig and the environment alone with all of them together.",
+         runCompare},
+        {"", "measure", "SCENE", 1, 1, kMeasure, true, "Error against run time over a sweep of settings",
+         "Renders the scene with each setting of a sweep and compares every picture with the exact one (cutis "
+         "reference, kept in the cache). Writes measure.csv, measure.json, plots and index.html, which opens from disk.",
+         runMeasure},
         {"rig", "list", "", 0, 0, kNoCommand, false, "The built-in lighting presets", "", runRigList},
         {"rig", "show", "RIG", 1, 1, kNoCommand, false,
          "A rig file or preset as a rig file, on standard output",

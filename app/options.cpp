@@ -19,6 +19,8 @@ constexpr int kMinAtlas = 8, kMaxAtlas = 16384;  // texels
 constexpr int kMaxGaussians = 32;
 constexpr double kMaxSeconds = 3.6e6;
 constexpr unsigned kPicture = kRender | kReference;  // the same picture in two ways: the same options
+constexpr unsigned kView = kPicture | kCompare | kMeasure;  // whatever shows a scene
+constexpr int kMaxRepeats = 1000;
 constexpr double kMaxExposure = 64, kMaxIntensity = 1e12, kMaxTurn = 36000;
 
 [[noreturn]] void refuse(const std::string& text, const std::string& must) {
@@ -177,38 +179,61 @@ std::vector<Option> makeOptions() {
         {"--stats", "FILE", kPicture, output,
          "Write what ran, what was left out and why, times and bytes as JSON", false,
          [](Request& r, const std::string& text) { r.stats = parseText(text); }},
-        {"--exposure", "EV", kPicture, output,
+        {"--exposure", "EV", kView, output,
          "Added to the rig's exposure: each step doubles. For .png only (default: 0)", false,
          [](Request& r, const std::string& text) {
              r.exposure = parseNumber(text, -kMaxExposure, kMaxExposure);
          }},
-        {"--size", "WxH", kPicture, output, "Pixels of the picture (default: 1280x720)", false, parseSize},
+        {"-o, --output", "DIR", kCompare | kMeasure, output,
+         "The folder of the report: a new one, or one that holds an earlier report", false,
+         [](Request& r, const std::string& text) { r.outputs.push_back(parseText(text)); }},
+        {"--size", "WxH", kPicture | kCompare, output, "Pixels of the picture (default: 1280x720)", false, parseSize},
+        {"--size", "WxH", kMeasure, output, "Pixels of the pictures that are compared (default: 480x270)", false,
+         [](Request& r, const std::string& text) {
+             parseSize(r, text);
+             r.measureSize = {r.settings.width, r.settings.height};
+         }},
 
-        {"--error", "E", kReference, "Accuracy",
+        {"--a", "RIG", kCompare, light, "The first rig of two, in place of each light alone: as --rig takes it", false,
+         [](Request& r, const std::string& text) { r.rigA = parseText(text); }},
+        {"--b", "RIG", kCompare, light, "The second rig", false,
+         [](Request& r, const std::string& text) { r.rigB = parseText(text); }},
+
+        {"--sweep", "SWEEP", kMeasure, "Accuracy",
+         "The settings to try: quality, lights (1 to 64), characters (1 to 16), size (of the atlas, 256 to 8192), or a "
+         "JSON file of settings (default: quality)",
+         false, [](Request& r, const std::string& text) { r.sweep = parseText(text); }},
+        {"--repeats", "N", kMeasure, "Accuracy", "Timed runs of each setting, after one that warms up (default: 3)", false,
+         [](Request& r, const std::string& text) { r.repeats = static_cast<int>(parseInteger(text, 1, kMaxRepeats)); }},
+        {"--tolerance", "E", kMeasure, "Accuracy",
+         "Name the cheapest setting whose error of diffuse light is below this: 1% or 0.01", false,
+         [](Request& r, const std::string& text) { r.tolerance = parseShare(text); }},
+
+        {"--error", "E", kReference | kMeasure, "Accuracy",
          "Stop when the standard error of the picture and that of its diffuse light are below this, relative to them: "
          "0.2% or 0.002 (default: 0.5% without --budget, none with it)",
          false, [](Request& r, const std::string& text) { r.error = parseShare(text); }},
-        {"--budget", "TIME", kReference, "Accuracy",
+        {"--budget", "TIME", kReference | kMeasure, "Accuracy",
          "Stop after this much work, at two passes over the picture at the earliest: 60s, 5m or 1h", false,
          [](Request& r, const std::string& text) { r.budget = parseDuration(text); }},
 
-        {"--rig", "RIG", kPicture, light,
+        {"--rig", "RIG", kView, light,
          "The lights: a rig file, a preset (see cutis rig list), 'scene' for the scene's own, or 'none'. "
          "Default: the "
          "scene's own lights if it has any, else NAME.rig.json beside the scene NAME.gltf, else three-point",
          false, [](Request& r, const std::string& text) { r.rig = parseText(text); }},
-        {"--light", "NAME", kPicture, light,
+        {"--light", "NAME", kView, light,
          "Only this light of the rig, switched on even where the rig has it off. Repeat it for several", true,
          [](Request& r, const std::string& text) { r.lights.push_back(parseText(text)); }},
-        {"--env", "FILE", kPicture, light,
+        {"--env", "FILE", kView, light,
          "A lat-long environment (.exr, .hdr, …) in place of the rig's, or 'none'", false,
          [](Request& r, const std::string& text) { r.environment = parseText(text); }},
-        {"--env-intensity", "X", kPicture, light,
+        {"--env-intensity", "X", kView, light,
          "Factor on the environment's radiance, in place of the rig's", false,
          [](Request& r, const std::string& text) {
              r.environmentIntensity = parseNumber(text, 0, kMaxIntensity);
          }},
-        {"--env-rotation", "DEG", kPicture, light,
+        {"--env-rotation", "DEG", kView, light,
          "Turn of the environment about +Y in degrees, counter-clockwise seen from above, in place of the "
          "rig's",
          false,
@@ -216,28 +241,28 @@ std::vector<Option> makeOptions() {
              r.environmentRotation = parseNumber(text, -kMaxTurn, kMaxTurn);
          }},
 
-        {"--camera", "CAMERA", kPicture, view,
+        {"--camera", "CAMERA", kView, view,
          "A camera's name or index, 'auto', or 'auto:AZ,EL': framed on the heads from that azimuth and "
          "elevation in "
          "degrees (default: the first camera of the scene, else auto)",
          false, [](Request& r, const std::string& text) { r.camera = parseText(text); }},
 
-        {"--skin", "GLOB", kPicture, quality,
+        {"--skin", "GLOB", kView, quality,
          "Materials whose names match are skin, or 'none' (default: those marked in the file, else those "
          "named like "
          "skin, head, face or body)",
          false, [](Request& r, const std::string& text) { r.skin = parseText(text); }},
-        {"--irradiance-size", "N", kPicture, quality,
+        {"--irradiance-size", "N", kPicture | kCompare, quality,
          "The irradiance atlas is exactly N×N texels (default: chosen from the picture)", false,
          [](Request& r, const std::string& text) {
              r.settings.irradianceSize = static_cast<int>(parseInteger(text, kMinAtlas, kMaxAtlas));
          }},
-        {"--gaussians", "K", kPicture, quality,
+        {"--gaussians", "K", kPicture | kCompare, quality,
          "Reduce each profile to K Gaussians, faster and less exact (default: all)", false,
          [](Request& r, const std::string& text) {
              r.settings.gaussians = static_cast<int>(parseInteger(text, 1, kMaxGaussians));
          }},
-        {"--merge", "NAME", kPicture, quality,
+        {"--merge", "NAME", kPicture | kCompare, quality,
          "How the thicknesses that several lights see become one: min, the smallest, or opposite, the distance "
          "of the other side of the skin, whatever the lights (default: min)",
          false,
@@ -245,7 +270,7 @@ std::vector<Option> makeOptions() {
              if (text != "min" && text != "opposite") refuse(text, "min or opposite");
              r.settings.merge = text == "min" ? Merge::min : Merge::opposite;
          }},
-        {"--seed", "N", kPicture, quality, "Starts the random numbers of whatever uses any (default: 0)",
+        {"--seed", "N", kView, quality, "Starts the random numbers of whatever uses any (default: 0)",
          false,
          [](Request& r, const std::string& text) {
              r.settings.seed =
@@ -255,7 +280,7 @@ std::vector<Option> makeOptions() {
          "Run also what the scene does not need, on neutral inputs, to measure what leaving it out saves",
          false, [](Request& r, const std::string&) { r.settings.prune = false; }},
 
-        {"--device", "DEVICE", kPicture, "Machine",
+        {"--device", "DEVICE", kView, "Machine",
          "The GPU: part of its name, its index in cutis devices, or 'cpu' (default: $CUTIS_DEVICE, else the "
          "best)",
          false, [](Request& r, const std::string& text) { r.device = parseText(text); }},

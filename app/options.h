@@ -29,14 +29,25 @@ struct Request {
     std::string device;                                               // as gpu::DeviceOptions takes it
     RenderSettings settings;
 
-    // Of cutis reference.
+    // Of cutis compare: rigs as --rig takes them; both or neither.
+    std::optional<std::string> rigA, rigB;
+
+    // Of cutis measure.
+    std::string sweep = "quality";  // a built-in sweep or a file
+    int repeats = 3;
+    std::optional<double> tolerance;
+    struct {
+        int width = 480, height = 270;
+    } measureSize;
+
+    // Of cutis reference and cutis measure.
     std::optional<double> error;  // relative standard error to reach
     double budget = 0;            // seconds; 0: none
     bool halves = false;          // write the two independent halves as well
 };
 
 // Commands that take an option, as a set of bits.
-enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4, kReference = 8 };
+enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4, kReference = 8, kCompare = 16, kMeasure = 32 };
 
 struct Option {
     std::string_view names;    // "-o, --output", the long one last

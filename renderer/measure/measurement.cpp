@@ -88,7 +88,7 @@ std::vector<Measurement> measureSettings(gpu::Device& device, const MeasureInput
             row = {.setting = setting, .failure = error.what()};
             result = {};
         }
-        hooks.row(row, result.picture, reference);
+        hooks.row(row, result.picture, result.aovs["diffuse"], reference);
         rows.push_back(row);
     }
     markParetoFront(rows);

@@ -22,7 +22,7 @@ Timing timingOf(std::vector<double> milliseconds);
 // What the settings of one subject are compared with. Pictures of the size of the measurement.
 struct SubjectReference {
     Picture picture, diffuse;                    // best estimates
-    Picture pictureHalves[2], diffuseHalves[2];  // independent; empty when there are none
+    Picture pictureHalves[2] = {}, diffuseHalves[2] = {};  // independent; empty when there are none
     double standardError = 0;                    // relative, of `diffuse` over all covered pixels
 };
 
@@ -53,8 +53,8 @@ struct MeasureInput {
 struct MeasureHooks {
     // The reference of a subject: called once for all settings that show the same.
     std::function<SubjectReference(const Scene&, const Rig&)> reference;
-    // Called with each finished row and its picture (empty when it failed).
-    std::function<void(const Measurement&, const Picture& picture, const SubjectReference&)> row;
+    // Called with each finished row, its picture and its diffuse light (both empty when it failed).
+    std::function<void(const Measurement&, const Picture& picture, const Picture& diffuse, const SubjectReference&)> row;
 };
 
 // A setting that fails becomes a row that says so. Rows come in the order of `settings`.

@@ -9,7 +9,7 @@
 namespace cutis::test {
 namespace {
 
-const std::vector<std::vector<std::string>> kCommands = {{"render"}, {"reference"},       {"rig", "list"},   {"rig", "show"},
+const std::vector<std::vector<std::string>> kCommands = {{"render"}, {"reference"},       {"compare"}, {"measure"}, {"rig", "list"},   {"rig", "show"},
                                                          {"rig", "check"}, {"rig", "export"}, {"devices"}};
 
 std::string joined(const std::vector<std::string>& words) {

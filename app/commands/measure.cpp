@@ -1,0 +1,141 @@
+// cutis measure: error against run time.
+#include <atomic>
+#include <cstdio>
+#include <future>
+
+#include "app/command.h"
+#include "app/inputs.h"
+#include "app/output_folder.h"
+#include "app/progress.h"
+#include "app/signals.h"
+#include "app/usage_error.h"
+#include "renderer/core/error.h"
+#include "renderer/core/files.h"
+#include "renderer/gpu/device.h"
+#include "renderer/measure/maps.h"
+#include "renderer/measure/measurement.h"
+#include "renderer/measure/report.h"
+#include "renderer/reference/reference.h"
+
+namespace cutis::app {
+namespace fs = std::filesystem;
+namespace {
+
+// White in error maps: this share of the mean diffuse light.
+constexpr double kWholeError = 0.2;
+
+std::vector<Setting> chooseSweep(const std::string& name) {
+    for (const std::string& known : sweepNames())
+        if (known == name) return builtInSweep(name);
+    return loadSweep(name);
+}
+
+// The exact picture. It keeps its own state in the cache, by the content of all that it shows, so that asking
+// again for the same costs nothing.
+SubjectReference makeReference(const Inputs& inputs, const Scene& scene, const Rig& rig,
+                               const Request& request, int width, int height, Progress& progress) {
+    const reference::Input input{.scene = &scene,
+                                 .rig = rig,
+                                 .environment = inputs.environment ? &*inputs.environment : nullptr,
+                                 .camera = inputs.camera};
+    const reference::Settings settings{.width = width,
+                                       .height = height,
+                                       .seed = request.settings.seed,
+                                       .error = request.error.value_or(request.budget > 0 ? 0 : 0.005),
+                                       .budget = request.budget,
+                                       .aovs = {"diffuse"}};
+    static std::atomic<bool> stop{false};
+    reference::Hooks hooks;
+    hooks.stop = &stop;
+    hooks.progress = [&](const reference::Progress& at) {
+        char text[64];
+        std::snprintf(text, sizeof text, "reference, standard error %.2f %%", 100 * at.error);
+        progress.setStage(text);
+    };
+    stopGentlyOnSignals(&stop);
+    reference::Result result = reference::evaluate(input, settings, hooks);
+    stopGentlyOnSignals(nullptr);
+    if (result.interrupted) std::exit(endingStatus());
+    SubjectReference made{.picture = std::move(result.picture),
+                          .diffuse = std::move(result.aovs.at("diffuse"))};
+    for (int half = 0; half < 2; ++half) {
+        made.pictureHalves[half] = std::move(result.halves[half]);
+        made.diffuseHalves[half] = std::move(result.diffuseHalves[half]);
+    }
+    made.standardError = result.diffuseError;
+    return made;
+}
+
+std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f %%", 100 * share);
+    return text;
+}
+
+}  // namespace
+
+int runMeasure(const Request& request) {
+    const fs::path folder = request.outputs.front();
+    const std::vector<Setting> settings = chooseSweep(request.sweep);
+    prepareOutputFolder(folder, "measure.json");
+    Progress progress;
+    progress.setStage("loading");
+    std::future<Inputs> loading = std::async(std::launch::async, [&] { return loadInputs(request); });
+    gpu::DeviceOptions deviceOptions;
+    deviceOptions.select = request.device;
+    gpu::Device device(deviceOptions);
+    const Inputs inputs = loading.get();
+    for (const char* name : {"pictures", "errors"}) fs::create_directories(folder / name);
+
+    const MeasureInput input{.scene = &inputs.scene,
+                             .rig = inputs.rig,
+                             .environment = inputs.environment ? &*inputs.environment : nullptr,
+                             .camera = inputs.camera,
+                             .width = request.measureSize.width,
+                             .height = request.measureSize.height,
+                             .exposure = inputs.rig.exposure + request.exposure,
+                             .repeats = request.repeats};
+    const ReportInfo info{
+        .title = "Error against run time: " + request.operands.front() + ", " + request.sweep,
+        .device = device.info().name,
+        .command = commandLine(),
+        .width = input.width,
+        .height = input.height,
+        .repeats = request.repeats,
+        .tolerance = request.tolerance};
+    std::vector<Measurement> rows;
+    MeasureHooks hooks;
+    hooks.reference = [&](const Scene& scene, const Rig& rig) {
+        return makeReference(inputs, scene, rig, request, input.width, input.height, progress);
+    };
+    hooks.row = [&](const Measurement& row, const Picture& picture, const Picture& diffuse,
+                    const SubjectReference& reference) {
+        const std::size_t index = rows.size();
+        rows.push_back(row);
+        progress.setStage("measured " + std::to_string(rows.size()) + " of " +
+                          std::to_string(settings.size()));
+        if (row.failure.empty()) {
+            writePng(folder / pictureFile(index, row), picture, input.exposure);
+            const std::vector<bool> covered = coveredPixels(reference.picture);
+            writeMap(folder / errorFile(index, row), relativeErrorMap(diffuse, reference.diffuse, covered),
+                     kWholeError);
+        }
+        std::printf(
+            "%-28s %s\n", row.setting.name.c_str(),
+            row.failure.empty()
+                ? (percent(row.diffuse.relativeL2) + " in " + std::to_string(row.gpu.median) + " ms").c_str()
+                : ("failed: " + row.failure).c_str());
+        std::fflush(stdout);
+    };
+    rows = measureSettings(device, input, settings, hooks);
+    progress.setStage("writing");
+    writeReport(folder, rows, info);
+    for (const std::string& paragraph : reportText(rows, info)) std::printf("%s\n", paragraph.c_str());
+    if (const std::uint64_t messages = gpu::validationMessages()) {
+        throw Error("validation failed", std::to_string(messages) + " messages from the validation layers",
+                    device.info().name);
+    }
+    return 0;
+}
+
+}  // namespace cutis::app
