@@ -167,6 +167,26 @@ std::vector<glm::dvec3> visibilityDirections(int n) {
     return directions;
 }
 
+std::vector<VisibilityDirection> visibilityDirections(const Environment& environment, int n) {
+    constexpr double kEvenShare = 1.0 / 3;
+    const auto luminance = [&](std::size_t texel) {
+        const glm::vec3& radiance = environment.radiance[texel];
+        return (double(radiance.x) + radiance.y + radiance.z) / 3;
+    };
+    const EnvironmentCells light =
+        sumEnvironment(environment, [&](std::size_t texel) { return glm::dvec3(luminance(texel)); });
+    double total = 0;
+    for (const FluxSums& cell : light.cells) total += cell.flux.x;
+    const double mean = total / (4 * kPi);
+    const EnvironmentCells mixed = sumEnvironment(environment, [&](std::size_t texel) {
+        return glm::dvec3(mean > 0 ? (1 - kEvenShare) * luminance(texel) / mean + kEvenShare : 1);
+    });
+    std::vector<VisibilityDirection> directions;
+    for (const FluxSums& region : clusterCells(mixed, std::size_t(n)))
+        directions.push_back({glm::normalize(region.moment), region.solidAngle});
+    return directions;
+}
+
 std::vector<DirectionalFlux> fluxPerDirection(std::span<const EnvironmentCluster> clusters,
                                               std::span<const glm::dvec3> directions, double rotationDegrees,
                                               double intensity) {

@@ -43,6 +43,18 @@ glm::dvec3 rotateAboutY(const glm::dvec3& direction, double degrees);
 // found.
 std::vector<glm::dvec3> visibilityDirections(int n);
 
+// A direction in which visibility is found, and the part of the sphere that it stands for.
+struct VisibilityDirection {
+    glm::dvec3 direction{0};  // unit
+    double solidAngle = 0;    // sr; all together 4π
+};
+
+// n directions, dense where the light of the environment is and never sparse: rectangles of the sphere are
+// halved where light and spread are largest, a third of what counts as light being spread evenly. The shadow
+// of a small bright source is thus an average over many directions, and an even sky is seen as well as by
+// visibilityDirections(n).
+std::vector<VisibilityDirection> visibilityDirections(const Environment& environment, int n);
+
 // The part of an environment nearest to one visibility direction.
 struct DirectionalFlux {
     glm::dvec3 flux{0};  // RGB ∫ L dω

@@ -137,6 +137,62 @@ TEST(VisibilityDirections, areEvenAndUnit) {
     EXPECT_GT(nearest, 0.2);  // a perfect packing of 128 would have 0.31
 }
 
+// rms over normals and round occluders of the error of what arrives, over what would arrive with nothing in
+// the way: a share by `directions` against all clusters.
+double occlusionError(const std::vector<EnvironmentCluster>& clusters, const std::vector<dvec3>& directions) {
+    const auto arriving = fluxPerDirection(clusters, directions, 0, 1);
+    const auto normals = visibilityDirections(60), occluders = visibilityDirections(47);
+    double squares = 0;
+    int count = 0;
+    for (const dvec3& n : normals)
+        for (const dvec3& axis : occluders) {
+            const double edge = std::cos(0.4 + 0.5 * (count % 7) / 7.0);
+            double open = 0, exact = 0, all = 0, seen = 0;
+            for (const EnvironmentCluster& c : clusters) {
+                const double e = (c.flux.x + c.flux.y + c.flux.z) * std::max(dot(n, c.centroid), 0.0);
+                open += e;
+                exact += dot(axis, c.centroid) > edge ? 0 : e;
+            }
+            for (std::size_t i = 0; i < directions.size(); ++i) {
+                const dvec3& flux = arriving[i].flux;
+                const double e = (flux.x + flux.y + flux.z) * std::max(dot(n, arriving[i].direction), 0.0);
+                all += e;
+                seen += dot(axis, directions[i]) > edge ? 0 : e;
+            }
+            if (!(open > 0 && all > 0)) continue;
+            squares += std::pow(seen / all - exact / open, 2);
+            ++count;
+        }
+    return std::sqrt(squares / count);
+}
+
+class VisibilityOf : public testing::TestWithParam<std::string> {};
+
+// As many directions tell more where they lie where the light is.
+TEST_P(VisibilityOf, directionsFollowTheLight) {
+    const Environment environment = blenderEnvironment(GetParam());
+    const auto clusters = clusterEnvironment(environment, 2000);
+    std::vector<dvec3> adapted;
+    double solidAngle = 0;
+    for (const VisibilityDirection& d : visibilityDirections(environment, 128)) {
+        EXPECT_NEAR(length(d.direction), 1, 1e-12);
+        EXPECT_GT(d.solidAngle, 0);
+        EXPECT_LT(d.solidAngle, 0.8) << "a gap in the sky";
+        adapted.push_back(d.direction);
+        solidAngle += d.solidAngle;
+    }
+    ASSERT_EQ(adapted.size(), 128u);
+    EXPECT_NEAR(solidAngle, 4 * kPi, 1e-6);
+    const double even = occlusionError(clusters, visibilityDirections(128)),
+                 error = occlusionError(clusters, adapted);
+    std::printf("occlusion error of %s: even directions %.4f, these %.4f\n", GetParam().c_str(), even, error);
+    EXPECT_LT(error, 0.02);
+    EXPECT_LT(error, 0.85 * even);
+}
+
+INSTANTIATE_TEST_SUITE_P(Blender, VisibilityOf, testing::ValuesIn(kBlenderEnvironments),
+                         [](const auto& i) { return i.param; });
+
 TEST(FluxPerDirection, keepsFluxAndTurnsWithTheEnvironment) {
     const Environment e = sunnyEnvironment(512, 256);
     const auto clusters = clusterEnvironment(e);
