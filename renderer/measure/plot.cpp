@@ -49,48 +49,43 @@ std::string dataBlock(const std::vector<Measurement>& rows, bool front) {
     return block;
 }
 
-// $front and $rows are the data; `terminal` the kind of file.
-std::string script(const fs::path& output, const char* terminal, const std::vector<Measurement>& rows,
-                   const ReportInfo& info) {
+// Draws both files, in the folder that it is run in.
+std::string script(const std::vector<Measurement>& rows, const ReportInfo& info) {
     std::string text =
         "$rows << EOD\n" + dataBlock(rows, false) + "EOD\n$front << EOD\n" + dataBlock(rows, true) + "EOD\n";
-    text += std::string("set terminal ") + terminal + "\nset output " + gnuplotText(output.string()) + "\n";
     text += "set logscale xy\nset grid\nset key top right\nset title " + gnuplotText(info.title) +
             " noenhanced\n";
     text += "set xlabel " + gnuplotText("time of a frame on " + info.device + " [ms]") + " noenhanced\n";
-    text +=
-        "set ylabel 'error of diffuse light: relative L2 [%]'\nset offsets graph 0.05, graph 0.25, graph "
-        "0.05, graph 0.05\n";
+    text += "set ylabel 'error of diffuse light: relative L2 [%]'\n";
+    text += "set offsets graph 0.05, graph 0.25, graph 0.05, graph 0.05\n";
     if (info.tolerance) {
-        text += "set arrow from graph 0, first " + std::to_string(100 * *info.tolerance) +
-                " to graph 1, first " + std::to_string(100 * *info.tolerance) + " nohead dashtype 2\n";
+        const std::string place = "first " + std::to_string(100 * *info.tolerance);
+        text += "set arrow from graph 0, " + place + " to graph 1, " + place + " nohead dashtype 2\n";
     }
-    text +=
+    const std::string plot =
         "plot $front using 1:2 with fsteps linewidth 2 linecolor rgb '#c03040' title 'Pareto front', "
         "$rows using 1:2:3:4:5:6 with xyerrorbars pointtype 7 pointsize 0.5 linecolor rgb '#304060' "
         "title 'settings, with the spread of their times and 95 % of their error', "
         "$rows using 1:2:7 with labels left offset 0.7,0.4 font ',9' noenhanced notitle\n";
-    return text;
+    text +=
+        "set terminal svg size 1000,640 dynamic background rgb 'white'\nset output 'measure.svg'\n" + plot;
+    return text + "set terminal pngcairo size 1000,640\nset output 'measure.png'\n" + plot;
 }
 
-void runGnuplot(const std::string& commands, const fs::path& folder) {
-    const fs::path file = folder / "measure.gnuplot.tmp";
-    writeFileAtomically(file, commands);
-    std::string program = "gnuplot", name = file.string();
+void runGnuplot(const fs::path& folder, const char* file) {
+    std::string program = "gnuplot", name = file, place = folder.string();
     char* arguments[] = {program.data(), name.data(), nullptr};
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addchdir_np(&actions, place.c_str());
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     pid_t child = 0;
     const int failed = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
     int status = 0;
     if (!failed) waitpid(child, &status, 0);
-    std::error_code ignored;
-    fs::remove(file, ignored);
     if (failed) throw Error("cannot plot", std::strerror(failed), "gnuplot");
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        throw Error("cannot plot", "gnuplot failed", folder.string());
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error("cannot plot", "gnuplot failed", place);
 }
 
 std::string htmlRow(std::size_t i, const Measurement& row) {
@@ -114,17 +109,17 @@ std::string htmlRow(std::size_t i, const Measurement& row) {
 
 void writePlots(const fs::path& folder, const std::vector<Measurement>& rows, const ReportInfo& info) {
     if (std::none_of(rows.begin(), rows.end(), plotted)) return;
-    runGnuplot(script(folder / "measure.svg", "svg size 1000,640 dynamic background rgb 'white'", rows, info),
-               folder);
-    runGnuplot(script(folder / "measure.png", "pngcairo size 1000,640", rows, info), folder);
+    writeFileAtomically(folder / "measure.gnuplot", script(rows, info));
+    runGnuplot(folder, "measure.gnuplot");
 }
 
 std::string reportHtml(const std::vector<Measurement>& rows, const ReportInfo& info) {
-    std::string page = htmlHead(info.title) + "<p>" + std::to_string(info.width) + "×" +
-            std::to_string(info.height) + " pixels. Made by <code>" + escapeHtml(info.command) +
-            "</code>; the figures are in <a href=\"measure.csv\">measure.csv</a> and "
-            "<a href=\"measure.json\">measure.json</a>.</p>\n<img class=plot src=\"measure.svg\" alt=\"error "
-            "against run time\">\n";
+    std::string page =
+        htmlHead(info.title) + "<p>" + std::to_string(info.width) + "×" + std::to_string(info.height) +
+        " pixels. Made by <code>" + escapeHtml(info.command) +
+        "</code>; the figures are in <a href=\"measure.csv\">measure.csv</a> and "
+        "<a href=\"measure.json\">measure.json</a>.</p>\n<img class=plot src=\"measure.svg\" alt=\"error "
+        "against run time\">\n";
     for (const std::string& paragraph : reportText(rows, info))
         page += "<p>" + escapeHtml(paragraph) + "</p>\n";
     page +=

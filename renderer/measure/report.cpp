@@ -207,8 +207,8 @@ std::vector<std::string> reportText(const std::vector<Measurement>& rows, const 
 void writeReport(const fs::path& folder, const std::vector<Measurement>& rows, const ReportInfo& info) {
     writeFileAtomically(folder / "measure.csv", reportCsv(rows));
     writeFileAtomically(folder / "measure.json", reportJson(rows, info));
-    writePlots(folder, rows, info);
     writeFileAtomically(folder / "index.html", reportHtml(rows, info));
+    writePlots(folder, rows, info);
 }
 
 }  // namespace cutis

@@ -94,7 +94,7 @@ TEST(Report, IsWrittenWithItsPlots) {
                           .height = 3,
                           .repeats = 3};
     writeReport(folder, rows(), info);
-    for (const char* name : {"measure.csv", "measure.json", "measure.svg", "measure.png", "index.html"})
+    for (const char* name : {"measure.csv", "measure.json", "measure.gnuplot", "measure.svg", "measure.png", "index.html"})
         EXPECT_GT(std::filesystem::file_size(folder / name), 500u) << name;
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 5)
         << "nothing else is left behind";
