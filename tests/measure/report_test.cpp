@@ -96,7 +96,7 @@ TEST(Report, IsWrittenWithItsPlots) {
     writeReport(folder, rows(), info);
     for (const char* name : {"measure.csv", "measure.json", "measure.gnuplot", "measure.svg", "measure.png", "index.html"})
         EXPECT_GT(std::filesystem::file_size(folder / name), 500u) << name;
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 5)
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 6)
         << "nothing else is left behind";
     const auto svg = readFile(folder / "measure.svg");
     const std::string text(reinterpret_cast<const char*>(svg.data()), svg.size());
