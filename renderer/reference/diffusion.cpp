@@ -59,7 +59,7 @@ glm::dvec3 Diffusion::exitance(const SurfacePoint& x, const RandomNumbers& rando
         std::sort(hits.begin(), hits.end(), [](const Hit& p, const Hit& q) { return p.t < q.t; });
         for (const Hit& hit : hits) {
             const RandomNumbers own = random.branch(found++);
-            const SurfacePoint y = surfaceAt(*rays_, hit);
+            SurfacePoint y = surfaceAt(*rays_, hit);
             if (!model.material().translucency && glm::dot(x.smooth, y.smooth) < 0) continue;
             const glm::dvec3 apart = y.position - x.position;
             const double distance2 = glm::dot(apart, apart);
@@ -76,6 +76,7 @@ glm::dvec3 Diffusion::exitance(const SurfacePoint& x, const RandomNumbers& rando
             const glm::dvec3 weight = kernel * (std::abs(glm::dot(y.face, axes[a])) / density);
             const double lit = std::min(1.0, std::max({weight.r, weight.g, weight.b}) / kLitWeight);
             if (!(lit > 0) || (lit < 1 && own.pair(kOffset).x >= lit)) continue;
+            readTextures(y, hit);
             sum += weight / lit * enteringAt(y, own.branch(0));
         }
     }

@@ -75,13 +75,16 @@ EnvironmentSampler::EnvironmentSampler(const Environment* environment, const Env
     if (!environment || !settings.enabled || !(settings.intensity > 0)) return;
     environment_ = environment;
     intensity_ = settings.intensity;
-    rotation_ = settings.rotation;
+    const glm::dvec3 turned = rotateAboutY({0, 0, 1}, settings.rotation);
+    cosine_ = turned.z;
+    sine_ = turned.x;
     makeCells();
     makeBins();
 }
 
 void EnvironmentSampler::makeCells() {
     const Environment& e = *environment_;
+    for (int y = 0; y < e.height; ++y) solidAngles_.push_back(texelSolidAngle(e, y));
     columns_ = std::min(kMaxColumns, e.width);
     rows_ = std::min(kMaxRows, e.height);
     for (int r = 0; r < rows_; ++r) {
@@ -129,7 +132,7 @@ void EnvironmentSampler::makeBins() {
 }
 
 std::size_t EnvironmentSampler::binOf(const glm::dvec3& n) const {
-    const glm::dvec2 square = toSquare(rotateAboutY(n, -rotation_)) * double(kBinsAcross);
+    const glm::dvec2 square = toSquare(toEnvironment(n)) * double(kBinsAcross);
     const int x = std::clamp(static_cast<int>(square.x), 0, kBinsAcross - 1);
     const int y = std::clamp(static_cast<int>(square.y), 0, kBinsAcross - 1);
     return std::size_t(y) * kBinsAcross + x;
@@ -142,10 +145,13 @@ std::size_t EnvironmentSampler::texelIndex(const glm::dvec3& environmentDirectio
     return std::size_t(y) * environment_->width + x;
 }
 
-glm::dvec3 EnvironmentSampler::radiance(const glm::dvec3& direction) const {
-    int x, y;
-    return glm::dvec3(environment_->radiance[texelIndex(rotateAboutY(direction, -rotation_), x, y)]) *
-           intensity_;
+// The inverse of rotateAboutY, and that itself (environment_clusters.h).
+glm::dvec3 EnvironmentSampler::toEnvironment(const glm::dvec3& d) const {
+    return {cosine_ * d.x - sine_ * d.z, d.y, cosine_ * d.z + sine_ * d.x};
+}
+
+glm::dvec3 EnvironmentSampler::toWorld(const glm::dvec3& d) const {
+    return {cosine_ * d.x + sine_ * d.z, d.y, cosine_ * d.z - sine_ * d.x};
 }
 
 glm::dvec3 EnvironmentSampler::sample(const glm::dvec3& n, const glm::dvec2& choice,
@@ -162,23 +168,23 @@ glm::dvec3 EnvironmentSampler::sample(const glm::dvec3& n, const glm::dvec2& cho
     const double high = std::cos(kPi * row / environment_->height),
                  low = std::cos(kPi * (row + 1) / environment_->height);
     const double v = std::acos(std::clamp(glm::mix(high, low, place.y), -1.0, 1.0)) / kPi;
-    return rotateAboutY(environmentDirection(x / environment_->width, v), rotation_);
+    return toWorld(environmentDirection(x / environment_->width, v));
 }
 
-double EnvironmentSampler::pdf(const glm::dvec3& n, const glm::dvec3& direction) const {
-    const std::vector<float>& bin = bins_[binOf(n)];
-    if (bin.empty()) return 0;
+EnvironmentSampler::Sky EnvironmentSampler::lookUp(const glm::dvec3& n, const glm::dvec3& direction) const {
     int x, y;
-    texelIndex(rotateAboutY(direction, -rotation_), x, y);
+    const std::size_t at = texelIndex(toEnvironment(direction), x, y);
+    Sky sky{glm::dvec3(environment_->radiance[at]) * intensity_, 0};
+    const std::vector<float>& bin = bins_[binOf(n)];
     // Cells are cut at whole texels, c · width / columns rounded down: the inverse of that.
     const int column = ((x + 1) * columns_ - 1) / environment_->width,
               row = ((y + 1) * rows_ - 1) / environment_->height;
     const std::size_t index = std::size_t(row) * columns_ + column;
     const Cell& cell = cells_[index];
-    if (cell.cumulative.empty()) return 0;
+    if (bin.empty() || cell.cumulative.empty()) return sky;
     const std::size_t texel = std::size_t(y - cell.y0) * (cell.x1 - cell.x0) + (x - cell.x0);
-    return probabilityOf(bin, index) * probabilityOf(cell.cumulative, texel) /
-           texelSolidAngle(*environment_, y);
+    sky.pdf = probabilityOf(bin, index) * probabilityOf(cell.cumulative, texel) / solidAngles_[y];
+    return sky;
 }
 
 }  // namespace cutis::reference

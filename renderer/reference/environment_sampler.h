@@ -20,12 +20,14 @@ class EnvironmentSampler {
     EnvironmentSampler(const Environment* environment, const EnvironmentSettings& settings);
 
     bool empty() const { return bins_.empty(); }
-    // From a world direction (towards the sky), intensity and rotation included.
-    glm::dvec3 radiance(const glm::dvec3& direction) const;
+    struct Sky {
+        glm::dvec3 radiance;  // intensity included
+        double pdf;           // of sample() drawing this direction, per steradian
+    };
+    // What a world direction (towards the sky) shows, seen from a surface of unit normal n.
+    Sky lookUp(const glm::dvec3& n, const glm::dvec3& direction) const;
     // A world direction for a surface of unit normal n; two pairs of random numbers in (0,1).
     glm::dvec3 sample(const glm::dvec3& n, const glm::dvec2& choice, const glm::dvec2& place) const;
-    // Density of sample(), per steradian.
-    double pdf(const glm::dvec3& n, const glm::dvec3& direction) const;
 
   private:
     struct Cell {
@@ -39,8 +41,12 @@ class EnvironmentSampler {
     void makeBins();
 
     const Environment* environment_ = nullptr;
-    double intensity_ = 0, rotation_ = 0;
-    int columns_ = 0, rows_ = 0;  // of cells
+    glm::dvec3 toEnvironment(const glm::dvec3& world) const;
+    glm::dvec3 toWorld(const glm::dvec3& environment) const;
+
+    double intensity_ = 0, cosine_ = 1, sine_ = 0;  // of the rotation about +Y
+    int columns_ = 0, rows_ = 0;                    // of cells
+    std::vector<double> solidAngles_;               // of a texel of each row
     std::vector<Cell> cells_;
     std::vector<std::vector<float>> bins_;  // cumulative P(cell) of each bin of normals
 };

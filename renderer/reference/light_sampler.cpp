@@ -67,17 +67,19 @@ LightPoint LightSampler::pointOf(const Placed& placed, const glm::dvec3& offset,
     return point;
 }
 
-LightPoint LightSampler::sample(std::size_t i, const glm::dvec3& p, const glm::dvec2& u,
-                                const glm::dvec2& depth) const {
+LightPoint LightSampler::sample(std::size_t i, const glm::dvec3& p, const RandomNumbers& random,
+                                std::uint32_t purpose) const {
     const Placed& placed = lights_[i];
     glm::dvec3 offset(0);
     if (placed.light.type == LightType::rect) {
-        offset = placed.x * (2 * u.x - 1) + placed.y * (2 * u.y - 1);
+        const glm::dvec2 u = random.pair(purpose) * 2.0 - 1.0;
+        offset = placed.x * u.x + placed.y * u.y;
     } else if (placed.light.type == LightType::spot && placed.light.radius > 0) {
+        const glm::dvec2 u = random.pair(purpose);
         const double r = std::sqrt(u.x), phi = 2 * kPi * u.y;
         offset = placed.x * (r * std::cos(phi)) + placed.y * (r * std::sin(phi));
     } else if (placed.light.type == LightType::point && placed.light.radius > 0) {
-        offset = placed.light.radius * pointInBall(u, depth.x);
+        offset = placed.light.radius * pointInBall(random.pair(purpose), random.pair(purpose + 1).x);
     }
     return pointOf(placed, offset, p);
 }

@@ -26,10 +26,11 @@ class LightSampler {
     LightSampler(const Rig& rig, const glm::dvec3& origin);
 
     std::size_t count() const { return lights_.size(); }
-    // A point of light i drawn with two random numbers, as seen from p. A rect light is drawn evenly by area;
-    // a point light with a radius from the ball and a spot with one from the disc that light_samples.h
-    // describes.
-    LightPoint sample(std::size_t i, const glm::dvec3& p, const glm::dvec2& u, const glm::dvec2& depth) const;
+    // A random point of light i as seen from p, drawn with the pair of `purpose` and, for a ball, the one
+    // after. A rect light is drawn evenly by area; a point light with a radius from the ball and a spot with
+    // one from the disc that light_samples.h describes.
+    LightPoint sample(std::size_t i, const glm::dvec3& p, const RandomNumbers& random,
+                      std::uint32_t purpose) const;
     // The point of light i that a direction meets, rect lights only.
     std::optional<LightPoint> find(std::size_t i, const glm::dvec3& p, const glm::dvec3& direction) const;
 

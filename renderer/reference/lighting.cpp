@@ -60,7 +60,7 @@ void Lighting::gatherLights(const SurfacePoint& point, const glm::dvec3& n, cons
     double total = 0;
     for (std::size_t i = 0; i < lights_.count(); ++i) {
         const auto purpose = static_cast<std::uint32_t>(kFirstLight + 2 * i);
-        LightPoint light = lights_.sample(i, point.outside, random.pair(purpose), random.pair(purpose + 1));
+        LightPoint light = lights_.sample(i, point.outside, random, purpose);
         if (above(point, n, light.direction)) {
             light.irradiance *= glm::dot(n, light.direction);
         } else {
@@ -118,13 +118,13 @@ void Lighting::gatherEnvironment(const SurfacePoint& point, const glm::dvec3& n,
     }
     if (!above(point, n, direction)) return;
     const double cosine = glm::dot(n, direction);
-    const double pdf = lightShare * environment_.pdf(n, direction) + cosineShare * cosine / kPi +
-                       (lobe ? lobeShare * lobe->pdf(n, direction) : 0);
-    const glm::dvec3 radiance = environment_.radiance(direction);
-    if (!(pdf > 0) || !(brightest(radiance) > 0)) return;
+    const EnvironmentSampler::Sky sky = environment_.lookUp(n, direction);
+    const double pdf =
+        lightShare * sky.pdf + cosineShare * cosine / kPi + (lobe ? lobeShare * lobe->pdf(n, direction) : 0);
+    if (!(pdf > 0) || !(brightest(sky.radiance) > 0)) return;
     const double visible =
         rays_->transmittance(point.outside, direction, std::numeric_limits<double>::infinity());
-    if (visible > 0) incident.push_back({direction, radiance * (cosine * visible / pdf), true});
+    if (visible > 0) incident.push_back({direction, sky.radiance * (cosine * visible / pdf), true});
 }
 
 void Lighting::gather(const SurfacePoint& point, const glm::dvec3& n, const Lobe* lobe,

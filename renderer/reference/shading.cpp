@@ -17,7 +17,9 @@ constexpr double kLeastAlpha = 1e-3;  // of GGX
 
 SurfacePoint seenPoint(const RayScene& rays, const Hit& hit, const glm::dvec3& view) {
     SurfacePoint point = surfaceAt(rays, hit);
-    if (glm::dot(point.face, view) < 0) point = surfaceAt(rays, hit, true);
+    const bool back = glm::dot(point.face, view) < 0;
+    if (back) point = surfaceAt(rays, hit, true);
+    readTextures(point, hit, back);
     const double facing = glm::dot(point.normal, view);
     if (facing < kHorizon)
         point.normal = safeNormalize(point.normal + view * (kHorizon - facing), point.smooth);
@@ -80,7 +82,10 @@ glm::dvec3 Shading::irradiance(const Hit& hit, const glm::dvec3& view, const Ran
     SurfacePoint point = seenPoint(*rays_, hit, view);
     if (point.material->unlit) return glm::dvec3(0);
     // Skin is lit from its outside and by its own normal, whoever looks; so is what diffuses.
-    if (point.mesh->skin) point = surfaceAt(*rays_, hit);
+    if (point.mesh->skin) {
+        point = surfaceAt(*rays_, hit);
+        readTextures(point, hit);
+    }
     thread_local std::vector<Incident> incident;
     lighting_->gather(point, point.normal, nullptr, random.branch(kReflected), incident);
     glm::dvec3 sum(0);

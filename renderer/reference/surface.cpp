@@ -52,17 +52,21 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, bool fromBack) {
     const double out = glm::dot(point.face, point.smooth) < 0 ? -1 : 1;
     point.outside += point.face * (out * rays.clearance(point.position));
 
+    point.normal = point.smooth;
+    return point;
+}
+
+void readTextures(SurfacePoint& point, const Hit& hit, bool fromBack) {
+    const PlacedMesh& mesh = *hit.mesh;
     point.base = glm::dvec4(mesh.material->baseColor) * mesh.colorAt(hit.triangle, hit.u, hit.v);
     if (mesh.material->baseColorTexture) point.base *= textureAt(hit, mesh.material->baseColorTexture);
-    point.normal = point.smooth;
-    if (mesh.material->normalTexture && !mesh.tangents.empty()) {
-        glm::dvec4 tangent(0);
-        for (int i = 0; i < 3; ++i) tangent += weight[i] * mesh.tangents[vertex[i]];
-        point.normal = mappedNormal(point.smooth, tangent * side,
-                                    glm::dvec3(textureAt(hit, mesh.material->normalTexture)),
-                                    mesh.material->normalScale);
-    }
-    return point;
+    if (!mesh.material->normalTexture || mesh.tangents.empty()) return;
+    const std::array<std::uint32_t, 3> vertex = mesh.triangle(hit.triangle);
+    const glm::dvec4 tangent = mesh.tangents[vertex[0]] * (1 - hit.u - hit.v) +
+                               mesh.tangents[vertex[1]] * hit.u + mesh.tangents[vertex[2]] * hit.v;
+    point.normal =
+        mappedNormal(point.smooth, fromBack ? -tangent : tangent,
+                     glm::dvec3(textureAt(hit, mesh.material->normalTexture)), mesh.material->normalScale);
 }
 
 }  // namespace cutis::reference
