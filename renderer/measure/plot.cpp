@@ -32,10 +32,17 @@ bool plotted(const Measurement& row) {
     return row.failure.empty() && row.gpu.median > 0 && row.diffuse.relativeL2 > 0;
 }
 
-std::string dataBlock(const std::vector<Measurement>& rows, bool front) {
+// What a block holds: every point; those of the front; those that have room for a name (the front and the
+// first).
+enum class Points { all, front, named };
+
+std::string dataBlock(const std::vector<Measurement>& rows, Points which) {
     std::vector<const Measurement*> points;
-    for (const Measurement& row : rows)
-        if (plotted(row) && (!front || row.paretoFront)) points.push_back(&row);
+    for (const Measurement& row : rows) {
+        const bool wanted =
+            which == Points::all || row.paretoFront || (which == Points::named && &row == &rows.front());
+        if (plotted(row) && wanted) points.push_back(&row);
+    }
     std::sort(points.begin(), points.end(),
               [](const Measurement* a, const Measurement* b) { return a->gpu.median < b->gpu.median; });
     std::string block;
@@ -51,13 +58,22 @@ std::string dataBlock(const std::vector<Measurement>& rows, bool front) {
 
 // Draws both files, in the folder that it is run in.
 std::string script(const std::vector<Measurement>& rows, const ReportInfo& info) {
-    std::string text =
-        "$rows << EOD\n" + dataBlock(rows, false) + "EOD\n$front << EOD\n" + dataBlock(rows, true) + "EOD\n";
+    std::string text = "$rows << EOD\n" + dataBlock(rows, Points::all) + "EOD\n$front << EOD\n" +
+                       dataBlock(rows, Points::front) + "EOD\n$named << EOD\n" +
+                       dataBlock(rows, Points::named) + "EOD\n";
+    // Axes fit the points: an uncertain one must not squeeze the others.
+    double lowest = 1e30, highest = 0;
+    for (const Measurement& row : rows) {
+        if (!plotted(row)) continue;
+        lowest = std::min(lowest, 100 * row.diffuse.relativeL2);
+        highest = std::max(highest, 100 * row.diffuse.relativeL2);
+    }
+    text += "set yrange [" + std::to_string(0.7 * lowest) + ":" + std::to_string(1.5 * highest) + "]\n";
     text += "set logscale xy\nset grid\nset key top right\nset title " + gnuplotText(info.title) +
             " noenhanced\n";
     text += "set xlabel " + gnuplotText("time of a frame on " + info.device + " [ms]") + " noenhanced\n";
     text += "set ylabel 'error of diffuse light: relative L2 [%]'\n";
-    text += "set offsets graph 0.05, graph 0.25, graph 0.05, graph 0.05\n";
+    text += "set offsets graph 0.05, graph 0.25, 0, 0\n";
     if (info.tolerance) {
         const std::string place = "first " + std::to_string(100 * *info.tolerance);
         text += "set arrow from graph 0, " + place + " to graph 1, " + place + " nohead dashtype 2\n";
@@ -66,7 +82,7 @@ std::string script(const std::vector<Measurement>& rows, const ReportInfo& info)
         "plot $front using 1:2 with fsteps linewidth 2 linecolor rgb '#c03040' title 'Pareto front', "
         "$rows using 1:2:3:4:5:6 with xyerrorbars pointtype 7 pointsize 0.5 linecolor rgb '#304060' "
         "title 'settings, with the spread of their times and 95 % of their error', "
-        "$rows using 1:2:7 with labels left offset 0.7,0.4 font ',9' noenhanced notitle\n";
+        "$named using 1:2:7 with labels left offset 0.7,0.4 font ',9' noenhanced notitle\n";
     text +=
         "set terminal svg size 1000,640 dynamic background rgb 'white'\nset output 'measure.svg'\n" + plot;
     return text + "set terminal pngcairo size 1000,640\nset output 'measure.png'\n" + plot;
