@@ -19,6 +19,7 @@ std::string statsToJson(const RenderStats& stats) {
                         {{"width", stats.atlasWidth},
                          {"height", stats.atlasHeight},
                          {"texels_covered", stats.atlasTexelsCovered},
+                         {"texels_lit", stats.atlasTexelsLit},
                          {"mm_per_texel", stats.atlasMmPerTexel}}},
                        {"lights", stats.lights},
                        {"light_samples", stats.lightSamples},

@@ -8,6 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
+#include "shared/atlas_tiles.h"
 #include "shared/scene.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -16,17 +17,16 @@ layout(binding = 0) uniform texture2D source;   // rgb; a: island, 0 where uncov
 layout(binding = 1) uniform texture2D stretch;  // a, b, c in texels per millimetre; w: island
 layout(binding = 2, rgba32f) writeonly uniform image2D target;
 
+layout(binding = 3, scalar) readonly buffer GaussianBuffer { GaussianTerm gaussians[]; };
+
 layout(push_constant, scalar) uniform Push {
-    uvec4 rect;      // of the chart: x, y, width, height in texels
-    float variance;  // v_k - v_{k-1} in mm²
-    float previous;  // v_{k-1} in mm²: how smooth the source is already
-    int axis;        // 0: first column (a, b), 1: second column (0, c)
+    TilePush tiles;
+    uint level;  // k
+    int axis;    // 0: first column (a, b), 1: second column (0, c)
 } push;
 
-const int kMaxTaps = 12;  // on either side
-const float kReach = 3.5;  // standard deviations
-// Variance, in texels², that bilinear lookup adds along each axis: ∫ f (1 - f) df.
-const float kLookupVariance = 1.0 / 6.0;
+#include "lib/atlas_tiles.glsl"
+#include "lib/blur_reach.glsl"
 
 // A symmetric kernel of 2·count + 1 taps, `step` texels apart along the axis on which the direction is longest.
 struct Kernel {
@@ -76,17 +76,24 @@ float interpolationVariance(Kernel k, float slope) {
 }
 
 vec4 accumulated;
+ivec2 chartLow, chartHigh;  // texels
 
 void addTap(ivec2 at, float weight, float island) {
-    ivec2 low = ivec2(push.rect.xy), high = low + ivec2(push.rect.zw);
-    if (any(lessThan(at, low)) || any(greaterThanEqual(at, high))) return;
+    if (any(lessThan(at, chartLow)) || any(greaterThanEqual(at, chartHigh))) return;
     vec4 value = texelFetch(source, at, 0);
     if (value.a == island) accumulated += vec4(value.rgb, 1.0) * weight;
 }
 
 void main() {
-    if (any(greaterThanEqual(gl_GlobalInvocationID.xy, push.rect.zw))) return;
-    ivec2 texel = ivec2(push.rect.xy + gl_GlobalInvocationID.xy);
+    ivec2 texel;
+    uint tile;
+    if (!tileTexel(texel, tile)) return;
+    AtlasChart chart = TILE_CHART;
+    if (push.level >= chart.gaussianCount) return;
+    chartLow = ivec2(chart.rect.xy);
+    chartHigh = chartLow + ivec2(chart.rect.zw);
+    float previous = push.level > 0u ? gaussians[chart.firstGaussian + push.level - 1u].variance : 0.0;  // v_{k-1}, mm²
+    float variance = gaussians[chart.firstGaussian + push.level].variance - previous;
     vec4 factor = texelFetch(stretch, texel, 0);
     if (factor.w == 0.0) {
         imageStore(target, texel, vec4(0.0));
@@ -96,10 +103,10 @@ void main() {
     vec3 perMm = vec3(factor.x * factor.x, factor.x * factor.y, factor.y * factor.y + factor.z * factor.z);
     // Whoever looks a level up between texels adds kLookupVariance to it along u and v. So that what is seen has the
     // variance v_k, the texture is taken to that much less, and is left as it is while v_k is below it.
-    vec2 before = max(push.previous * perMm.xz - kLookupVariance, 0.0);
-    vec2 after = max((push.previous + push.variance) * perMm.xz - kLookupVariance, 0.0);
+    vec2 before = max(previous * perMm.xz - kLookupVariance, 0.0);
+    vec2 after = max((previous + variance) * perMm.xz - kLookupVariance, 0.0);
     vec2 added = after - before;
-    float mixed = perMm.y * push.variance;
+    float mixed = perMm.y * variance;
     mixed = clamp(mixed, -sqrt(added.x * added.y), sqrt(added.x * added.y));
     // Columns (a, b) and (0, c) of the Cholesky factor of what is added.
     float a = sqrt(added.x), b = a > 0.0 ? mixed / a : 0.0;

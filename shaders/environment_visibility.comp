@@ -4,7 +4,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 // features: VERTICES
+#include "shared/atlas_tiles.h"
 #include "shared/scene.h"
 #include "lib/geometry.glsl"
 #include "lib/octahedral.glsl"
@@ -15,7 +17,7 @@ layout(binding = 0, scalar) readonly buffer PositionBuffer { vec3 positions[]; }
 layout(binding = 1, scalar) readonly buffer AttributeBuffer { VertexAttributes attributes[]; };
 layout(binding = 2, scalar) writeonly buffer VisibilityBuffer { uint visibility[]; };
 #else
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 64) in;
 layout(binding = 0) uniform texture2D position;
 layout(binding = 1) uniform texture2D normal;
 layout(binding = 2, r32ui) writeonly uniform uimage2DArray visibility;
@@ -25,48 +27,55 @@ layout(binding = 3, scalar) readonly buffer LightViewBuffer { LightView lightVie
 layout(binding = 4) uniform sampler2DArrayShadow lightDepthCompare;
 
 layout(push_constant, scalar) uniform Push {
-    uint receiverGroup;  // whose views these are
-    uint firstView;      // of the batch: 32 directions of this group
-    uint count;          // directions in the batch
-    uint batch;          // which 32 bits
-    uint firstVertex, vertexCount, firstProbe, probeCount;
-    uvec2 origin, size;  // of the probes of one chart
+    TilePush tiles;   // of vertices, the receiver group alone
+    uint firstView;   // of the first receiver group whose maps are there
+    uint groupViews;  // of each group
+    uint word;        // which 32 directions
+    uint firstVertex, vertexCount, firstProbe, probeCount;  // of a draw
     float clearance;  // metres: how far a coarser mesh may stand above the surface
 } push;
 
+#ifndef VERTICES
+#include "lib/atlas_tiles.glsl"
+#endif
 #include "lib/environment_probe.glsl"
 #define LIGHT_MAPS_COMPARE_ONLY
 #include "lib/light_maps.glsl"
 
 uint visibilityBits(vec3 p, vec3 n) {
     uint bits = 0u;
-    for (uint i = 0u; i < push.count; ++i) {
-        LightView view = lightViews[push.firstView + i];
+    // Views are found by push constants alone: a software device reads them once for all invocations.
+    [[unroll]] for (uint i = 0u; i < 32u; ++i) {
+        LightView view = lightViews[push.firstView + push.tiles.receiverGroup * push.groupViews + push.word * 32u + i];
         // Third row of an orthographic matrix: depth grows away from the sky.
         vec3 away = vec3(view.worldToClip[0].z, view.worldToClip[1].z, view.worldToClip[2].z);
         vec3 l = -normalize(away);
-        if (dot(n, l) <= -0.2) continue;  // normal maps tilt by no more than this
-        if (lightMapReaches(view, p, n, l, push.clearance)) bits |= 1u << i;
+        // Normal maps tilt by no more than this.
+        bool reaches = lightMapReaches(view, p, n, l, push.clearance);
+        bits |= dot(n, l) > -0.2 && reaches ? 1u << i : 0u;
     }
     return bits;
 }
 
+// No early returns: what is read at one place for all invocations, a software device reads once only where they all are
+// sure to be at work.
 void main() {
 #ifdef VERTICES
-    uint i = gl_GlobalInvocationID.x;
-    if (i >= push.vertexCount) return;
+    uint i = min(gl_GlobalInvocationID.x, push.vertexCount - 1u);
     uint vertex = push.firstVertex + i;
-    visibility[push.batch * push.probeCount + push.firstProbe + i] =
+    visibility[push.word * push.probeCount + push.firstProbe + i] =
         visibilityBits(positions[vertex], attributes[vertex].normal);
 #else
-    if (any(greaterThanEqual(gl_GlobalInvocationID.xy, push.size))) return;
-    ivec2 probe = ivec2(push.origin + gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(probe, imageSize(visibility).xy))) return;
+    ivec2 probe;
+    bool listed = tileProbe(probe);
     ivec2 texel = probeTexel(probe);
-    if (texel.x < 0) return;
+    listed = listed && texel.x >= 0;
+    texel = max(texel, ivec2(0));
     vec4 place = texelFetch(position, texel, 0);
-    if (draws[uint(place.w) - 1u].receiverGroup != push.receiverGroup) return;
+    // Where charts meet, a probe belongs to the one that its texel is of.
+    listed = listed && draws[max(uint(place.w), 1u) - 1u].chart == push.tiles.chart;
     vec3 n = decodeOctahedral(texelFetch(normal, texel, 0).xy);
-    imageStore(visibility, ivec3(probe, push.batch), uvec4(visibilityBits(place.xyz, n)));
+    uint bits = visibilityBits(place.xyz, n);
+    if (listed) imageStore(visibility, ivec3(probe, push.word), uvec4(bits));
 #endif
 }

@@ -5,6 +5,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 // features: TRANSLUCENCY
+#include "shared/atlas_tiles.h"
 #include "shared/scene.h"
 #include "lib/octahedral.glsl"
 
@@ -14,19 +15,17 @@ layout(binding = 0) uniform sampler2DArray levels;  // a layer a Gaussian: rgb; 
 layout(binding = 1, scalar) readonly buffer GaussianBuffer { GaussianTerm gaussians[]; };
 layout(binding = 2, rgba32f) writeonly uniform image2D exitance;  // rgb: M; a: island, 0 where uncovered
 #ifdef TRANSLUCENCY
-layout(binding = 3) uniform texture2D entry;     // texels; x < 0: none
-layout(binding = 4) uniform texture2D incident;  // a: thickness, mm
+layout(binding = 3) uniform texture2D entry;     // xy: texels, x < 0: none; z: thickness, mm
 layout(binding = 5) uniform texture2D stretch;
 layout(binding = 6) uniform texture2D position;  // metres
 layout(binding = 7) uniform texture2D normal;
 #endif
 
 layout(push_constant, scalar) uniform Push {
-    uvec4 rect;
-    uint firstGaussian, gaussianCount;
-    float mmPerUnit;
+    TilePush tiles;
 } push;
 
+#include "lib/atlas_tiles.glsl"
 #ifdef TRANSLUCENCY
 // Length in mm of a step between two texels of one island, by the metric at one of them: |L⁻¹ d| with (JᵀJ)⁻¹ = L·Lᵀ.
 float stepLength(vec2 d, vec3 factor) {
@@ -53,20 +52,23 @@ vec3 levelAt(vec2 place, int layer) {
 #endif
 
 void main() {
-    if (any(greaterThanEqual(gl_GlobalInvocationID.xy, push.rect.zw))) return;
-    ivec2 texel = ivec2(push.rect.xy + gl_GlobalInvocationID.xy);
+    ivec2 texel;
+    uint tile;
+    if (!tileTexel(texel, tile)) return;
+    AtlasChart chart = TILE_CHART;
     float island = texelFetch(levels, ivec3(texel, 0), 0).a;
     if (island == 0.0) {
         imageStore(exitance, texel, vec4(0.0));
         return;
     }
     vec3 sum = vec3(0.0);
-    for (uint k = 0u; k < push.gaussianCount; ++k) {
-        sum += gaussians[push.firstGaussian + k].weight * texelFetch(levels, ivec3(texel, int(k)), 0).rgb;
+    for (uint k = 0u; k < chart.gaussianCount; ++k) {
+        sum += gaussians[chart.firstGaussian + k].weight * texelFetch(levels, ivec3(texel, int(k)), 0).rgb;
     }
 #ifdef TRANSLUCENCY
-    float thickness = texelFetch(incident, texel, 0).a;
-    vec2 place = texelFetch(entry, texel, 0).xy;
+    vec4 found = texelFetch(entry, texel, 0);
+    vec2 place = found.xy;
+    float thickness = found.z;
     if (place.x >= 0.0 && thickness < 60000.0) {
         // How far the entry point lies over the surface: light from nearby is in the local levels already.
         ivec2 entryTexel = ivec2(place);
@@ -82,11 +84,11 @@ void main() {
             vec3 entryNormal = decodeOctahedral(texelFetch(normal, entryTexel, 0).xy);
             apart = dot(n, entryNormal) < 0.0
                         ? 1e30
-                        : push.mmPerUnit * distance(texelFetch(position, texel, 0).xyz,
+                        : chart.mmPerUnit * distance(texelFetch(position, texel, 0).xyz,
                                                     texelFetch(position, entryTexel, 0).xyz);
         }
-        for (uint k = 0u; k < push.gaussianCount; ++k) {
-            GaussianTerm term = gaussians[push.firstGaussian + k];
+        for (uint k = 0u; k < chart.gaussianCount; ++k) {
+            GaussianTerm term = gaussians[chart.firstGaussian + k];
             float away = clamp(apart / (6.0 * sqrt(term.variance)), 0.0, 1.0);
             float through = exp(-thickness * thickness / (2.0 * term.variance)) * away * away * (3.0 - 2.0 * away);
             if (through > 1e-6) sum += term.weight * through * levelAt(place, int(k));

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
+#include "shared/atlas_tiles.h"
 #include "shared/scene.h"
 #include "lib/geometry.glsl"
 
@@ -13,6 +14,18 @@ layout(binding = 1, scalar) readonly buffer IndexBuffer { uint indices[]; };
 layout(binding = 2, scalar) readonly buffer AtlasVertexBuffer { AtlasVertex atlasVertices[]; };
 layout(binding = 3, scalar) readonly buffer OppositeBuffer { OppositeVertex oppositeVertices[]; };
 layout(binding = 4, rgba32f) writeonly uniform image2D opposite;  // xy: place in texels, x < 0: none; z: thickness, mm
+layout(binding = 5) uniform texture2D position;
+layout(binding = 6, scalar) readonly buffer DrawBuffer { DrawInfo draws[]; };
+layout(binding = 7, scalar) readonly buffer GaussianBuffer { GaussianTerm gaussians[]; };
+layout(binding = 8, scalar) buffer TileStateBuffer { AtlasTileState states[]; };
+
+layout(push_constant, scalar) uniform Push {
+    TilePush tiles;
+    uint entryStep;  // of the tiles where light enters
+} push;
+
+#include "lib/atlas_tiles.glsl"
+#include "lib/entry_tiles.glsl"
 
 const float kNoThickness = 60000.0;
 
@@ -22,8 +35,9 @@ bool together(OppositeVertex a, OppositeVertex b, float reach) {
 }
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, textureSize(triangles, 0)))) return;
+    ivec2 texel;
+    uint tile;
+    if (!tileTexel(texel, tile)) return;
     vec4 found = vec4(-1.0, -1.0, kNoThickness, 0.0);
     uint id = texelFetch(triangles, texel, 0).x;
     if (id != 0u) {
@@ -44,4 +58,5 @@ void main() {
         }
     }
     imageStore(opposite, texel, found);
+    if (found.x >= 0.0) markEntry(found.xy, found.z, push.entryStep);
 }

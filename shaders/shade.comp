@@ -189,7 +189,7 @@ void shadeMetallicRoughness(inout Shade shade, DrawInfo draw, vec3 p, vec3 smoot
         if ((light.flags & LIGHT_SHADOW) != 0u) {
             visible = lightMapVisibility(lightViews[light.firstView + draw.receiverGroup], p, smoothNormal,
                                          from.direction, light.radius, from.distance,
-                                         (light.flags & LIGHT_DIRECTIONAL) != 0u);
+                                         (light.flags & LIGHT_DIRECTIONAL) != 0u, true);
         }
 #endif
         vec3 e = from.irradiance * (cosine * visible);

@@ -4,6 +4,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 // features: TEXTURED
+#include "shared/atlas_tiles.h"
 #include "shared/scene.h"
 #include "lib/geometry.glsl"
 #include "lib/octahedral.glsl"
@@ -22,10 +23,17 @@ layout(binding = 8, rgba32f) writeonly uniform image2D position;  // xyz: metres
 layout(binding = 9, rgba16f) writeonly uniform image2D normal;    // octahedral: smooth (xy), with normal map (zw)
 layout(binding = 10, rgba16f) writeonly uniform image2D albedo;   // rgb
 layout(binding = 11, rgba32f) writeonly uniform image2D stretch;  // Cholesky factor of (JᵀJ)⁻¹: a, b, c; w: island
+layout(binding = 13, scalar) buffer TileStateBuffer { AtlasTileState states[]; };
 #ifdef TEXTURED
 layout(binding = 12) uniform sampler2DArray materialTextures[MAX_TEXTURE_GROUPS];
 #include "lib/material_textures.glsl"
 #endif
+
+layout(push_constant, scalar) uniform Push {
+    TilePush tiles;
+} push;
+
+#include "lib/atlas_tiles.glsl"
 
 // Where a texel's shading point lies for a smooth surface: outside the flat triangle wherever its vertex normals
 // say that the surface bulges (Hanika 2021), so that coarse triangles do not shadow themselves at the terminator.
@@ -51,8 +59,9 @@ vec3 inverseMetricFactor(vec3 g) {
 }
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, textureSize(triangles, 0)))) return;
+    ivec2 texel;
+    uint tile;
+    if (!tileTexel(texel, tile)) return;
     uint id = texelFetch(triangles, texel, 0).x;
     if (id == 0u) {
         imageStore(position, texel, vec4(0.0));
@@ -94,5 +103,10 @@ void main() {
     imageStore(normal, texel, vec4(encodeOctahedral(n), encodeOctahedral(mapped)));
     imageStore(albedo, texel, vec4(clamp(rho, 0.0, 1.0), 1.0));
     vec3 metric = interpolate(w, aa.metric, ab.metric, ac.metric);
-    imageStore(stretch, texel, vec4(inverseMetricFactor(metric), aa.island));
+    vec3 factor = inverseMetricFactor(metric);
+    imageStore(stretch, texel, vec4(factor, aa.island));
+    // Bits of floats that are not negative compare as the floats do.
+    atomicMax(states[tile].perMmU, floatBitsToUint(factor.x * factor.x));
+    atomicMax(states[tile].perMmV, floatBitsToUint(factor.y * factor.y + factor.z * factor.z));
+    atomicMax(states[tile].perMmMixed, floatBitsToUint(abs(factor.x * factor.y)));
 }

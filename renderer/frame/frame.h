@@ -8,6 +8,7 @@
 #include "renderer/frame/geometry.h"
 #include "renderer/frame/plan.h"
 #include "renderer/frame/upload.h"
+#include "renderer/passes/atlas_tiles.h"
 #include "renderer/passes/composite.h"
 #include "renderer/passes/environment.h"
 #include "renderer/passes/environment_visibility.h"
@@ -41,11 +42,13 @@ struct FrameContext {
 
     SurfaceImages surface;
     gpu::Buffer oppositeVertices;
+    AtlasTiles tiles;  // with surface
     LightMaps lights;
     EnvironmentVisibility visibility;
     double proxyError = 0;  // metres by which the sky's occluders may stand off the meshes
     SkinLight skin;
     shared::ViewCamera camera{};
+    TileBuffers viewTile;  // made by whoever first looks through the camera
     PictureTarget target;
 };
 

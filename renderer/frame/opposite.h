@@ -10,13 +10,12 @@
 
 #include "renderer/frame/atlas.h"
 #include "renderer/frame/geometry.h"
+#include "renderer/passes/resources.h"
 
 namespace cutis {
 
 // One a skin vertex; indices as in Atlas::vertices. Vertices without another side within reach have a thickness of
 // kNoThickness and the island 0.
 std::vector<shared::OppositeVertex> findOpposite(const Scene& scene, const Geometry& geometry, const Atlas& atlas);
-
-inline constexpr float kNoThickness = 60000;  // mm
 
 }  // namespace cutis

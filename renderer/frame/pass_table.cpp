@@ -11,18 +11,28 @@
 #include "renderer/passes/light_maps.h"
 #include "renderer/passes/light_views.h"
 #include "renderer/passes/opposite.h"
+#include "renderer/passes/seen_triangles.h"
 #include "renderer/passes/surface.h"
+#include "renderer/passes/thickness.h"
 
 namespace cutis {
 namespace {
 
 constexpr int kSupersampling = 3;
-// Directions in which the environment's visibility is known: enough that a hemisphere's irradiance is within 2 %.
-constexpr int kVisibilityDirections = 128;
 // Light maps are as fine as the picture asks (a texel is one to two pixels), whatever their number: a light casts the same
 // shadow alone and among many. Only beyond this much memory do they become coarser.
 constexpr std::uint64_t kLightMapBytes = std::uint64_t(2) << 30;
 constexpr int kLargestLightMap = 4096, kFinestUsefulLightMap = 1024, kSmallestLightMap = 128;
+
+void addToRuns(const shared::LightSampleData& sample, std::vector<LightRun>& runs, std::uint32_t index) {
+    const bool sameLight = !runs.empty() && runs.back().light == sample.light;
+    const bool shadow = (sample.flags & shared::LIGHT_SHADOW) != 0;
+    if (!sameLight || runs.back().sampleCount == kLongestLightRun || runs.back().shadow != shadow) {
+        runs.push_back({.firstSample = index, .firstView = sample.firstView, .light = sample.light, .shadow = shadow,
+                        .startsLight = !sameLight});
+    }
+    ++runs.back().sampleCount;
+}
 
 void uploadLights(FrameContext& frame) {
     std::vector<shared::LightSampleData> samples;
@@ -46,8 +56,10 @@ void uploadLights(FrameContext& frame) {
         if (samples.empty() || from.light != lastLight) to.light = frame.lights.lightCount++;
         else to.light = frame.lights.lightCount - 1;
         lastLight = from.light;
+        addToRuns(to, frame.lights.runs, static_cast<std::uint32_t>(samples.size()));
         samples.push_back(to);
     }
+    frame.lights.groupCount = static_cast<std::uint32_t>(frame.groups.size());
     frame.lights.sampleCount = static_cast<std::uint32_t>(samples.size());
     frame.lights.samples = gpu::Buffer(
         *frame.device, {.name = "light samples", .bytes = samples.size() * sizeof(shared::LightSampleData)});
@@ -89,7 +101,43 @@ void lightMapsRow(FrameContext& frame) {
 }
 
 void surfaceRow(FrameContext& frame) {
-    frame.surface = recordSurface(*frame.device, *frame.commands, frame.scene.buffers, frame.atlas.size);
+    frame.surface = recordSurface(*frame.device, *frame.commands, frame.scene.buffers, frame.scene.charts,
+                                  frame.atlas.size, frame.tiles);
+}
+
+// Calls body(tile) for the parts of the picture, with room for one of them in frame.viewTile.
+template <class Body>
+void forEachViewTile(FrameContext& frame, Body body) {
+    const glm::ivec2 picture(frame.settings->width, frame.settings->height);
+    const int step = tileSize(frame.scene.buffers, kSupersampling);
+    if (!frame.viewTile.camera) {
+        frame.viewTile = makeTileBuffers(*frame.device, frame.scene.buffers, glm::min(glm::ivec2(step), picture),
+                                         kSupersampling);
+    }
+    for (int y = 0; y < picture.y; y += step) {
+        for (int x = 0; x < picture.x; x += step) {
+            const glm::ivec2 origin(x, y);
+            body(ViewTile{origin, glm::min(glm::ivec2(step), picture - origin), picture, kSupersampling});
+        }
+    }
+}
+
+void visibleRow(FrameContext& frame) {
+    const gpu::Buffer seen = makeSeenTriangles(*frame.device, *frame.commands, frame.scene.buffers);
+    forEachViewTile(frame, [&](const ViewTile& tile) {
+        recordSeenTriangles(*frame.device, *frame.commands, frame.scene.buffers, frame.camera, tile, frame.viewTile,
+                            seen);
+    });
+    recordSeenTiles(*frame.device, *frame.commands, frame.scene.buffers, seen, frame.tiles);
+}
+
+void thicknessRow(FrameContext& frame) {
+    recordThickness(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.lights, frame.tiles,
+                    frame.skin);
+}
+
+void neededTexelsRow(FrameContext& frame) {
+    recordNeededTiles(*frame.device, *frame.commands, frame.scene.buffers, frame.tiles);
 }
 
 void oppositeRow(FrameContext& frame) {
@@ -97,7 +145,8 @@ void oppositeRow(FrameContext& frame) {
         findOpposite(*frame.input->scene, frame.geometry, frame.atlas);
     frame.oppositeVertices = gpu::Buffer(*frame.device, {.name = "opposite sides", .bytes = vertices.size() * sizeof(vertices[0])});
     frame.commands->upload(frame.oppositeVertices, vertices);
-    recordOpposite(*frame.device, *frame.commands, frame.scene.buffers, frame.oppositeVertices, frame.surface);
+    recordOpposite(*frame.device, *frame.commands, frame.scene.buffers, frame.oppositeVertices, frame.tiles,
+                   frame.surface);
 }
 
 void environmentVisibilityRow(FrameContext& frame) {
@@ -105,7 +154,7 @@ void environmentVisibilityRow(FrameContext& frame) {
     for (const GeometryDraw& draw : frame.geometry.draws) vertexCounts.push_back(draw.vertexCount);
     const VisibilityInput input{.scene = &frame.scene.buffers,
                                 .surface = frame.surface.size > 0 ? &frame.surface : nullptr,
-                                .charts = frame.scene.charts,
+                                .tiles = &frame.tiles,
                                 .draws = frame.geometry.drawInfos,
                                 .vertexCounts = vertexCounts,
                                 .groups = frame.groups,
@@ -114,7 +163,7 @@ void environmentVisibilityRow(FrameContext& frame) {
                                 .probeCount = frame.geometry.probeCount,
                                 .mapSize = kVisibilityMapSize,
                                 .clearance = 2 * static_cast<float>(frame.proxyError)};
-    const std::vector<glm::dvec3> directions = visibilityDirections(kVisibilityDirections);
+    const std::vector<glm::dvec3> directions = visibilityDirections(shared::VISIBILITY_DIRECTIONS);
     const std::vector<glm::vec3> narrow(directions.begin(), directions.end());
     const EnvironmentSettings& settings = frame.input->rig.environment;
     std::vector<shared::EnvironmentDirection> arriving;
@@ -131,6 +180,7 @@ void irradianceRow(FrameContext& frame) {
     recordIrradiance(*frame.device, *frame.commands,
                      {.scene = &frame.scene.buffers,
                       .surface = &frame.surface,
+                      .tiles = &frame.tiles,
                       .lights = frame.needs[Need::lights] ? &frame.lights : nullptr,
                       .environment = environment ? &frame.environmentMaps : nullptr,
                       .visibility = environment ? &frame.visibility : nullptr,
@@ -139,37 +189,29 @@ void irradianceRow(FrameContext& frame) {
 }
 
 void diffusionRow(FrameContext& frame) {
-    recordDiffusion(*frame.device, *frame.commands, frame.surface, frame.scene.charts, frame.skin);
+    recordDiffusion(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.tiles, frame.skin);
 }
 
 void exitanceRow(FrameContext& frame) {
-    recordExitance(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.scene.charts, frame.skin);
+    recordExitance(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.tiles, frame.skin);
 }
 
 // Both depend on the camera and work tile by tile, so one row holds them.
 void compositeRow(FrameContext& frame) {
     const bool environment = frame.needs[Need::environment];
-    const glm::ivec2 picture(frame.settings->width, frame.settings->height);
-    const int step = tileSize(frame.scene.buffers, kSupersampling);
     if (frame.target.aovs) frame.commands->clear(frame.target.aovs);
-    const TileBuffers buffers = makeTileBuffers(*frame.device, frame.scene.buffers,
-                                                glm::min(glm::ivec2(step), picture), kSupersampling);
-    for (int y = 0; y < picture.y; y += step) {
-        for (int x = 0; x < picture.x; x += step) {
-            const glm::ivec2 origin(x, y);
-            const ViewTile tile{origin, glm::min(glm::ivec2(step), picture - origin), picture, kSupersampling};
-            recordView(*frame.device, *frame.commands, frame.scene.buffers, frame.camera, tile, buffers);
-            recordComposite(*frame.device, *frame.commands,
-                            {.scene = &frame.scene.buffers,
-                             .buffers = &buffers,
-                             .skin = frame.needs[Need::litSkin] ? &frame.skin : nullptr,
-                             .lights = &frame.lights,
-                             .environment = environment ? &frame.environmentMaps : nullptr,
-                             .visibility = environment ? &frame.visibility : nullptr,
-                             .environmentSettings = environment ? &frame.environmentSettings : nullptr},
-                            tile, frame.target);
-        }
-    }
+    forEachViewTile(frame, [&](const ViewTile& tile) {
+        recordView(*frame.device, *frame.commands, frame.scene.buffers, frame.camera, tile, frame.viewTile);
+        recordComposite(*frame.device, *frame.commands,
+                        {.scene = &frame.scene.buffers,
+                         .buffers = &frame.viewTile,
+                         .skin = frame.needs[Need::litSkin] ? &frame.skin : nullptr,
+                         .lights = &frame.lights,
+                         .environment = environment ? &frame.environmentMaps : nullptr,
+                         .visibility = environment ? &frame.visibility : nullptr,
+                         .environmentSettings = environment ? &frame.environmentSettings : nullptr},
+                        tile, frame.target);
+    });
 }
 
 }  // namespace
@@ -179,15 +221,18 @@ void uploadFrameLights(FrameContext& frame) { uploadLights(frame); }
 const std::vector<PassRow>& passTable() {
     using R = Resource;
     static const std::vector<PassRow> table{
-        // name                     need               reads                       reads if written        writes
-        {"surface",                 Need::skin,        {},                         {},                     {R::surface},    surfaceRow},
-        {"opposite",               Need::oppositeSides, {R::surface},              {},                     {R::oppositeSides}, oppositeRow},
-        {"light_maps",              Need::shadows,     {},                         {},                     {R::lightMaps},  lightMapsRow},
-        {"environment_visibility",  Need::environment, {},                         {R::surface},           {R::visibility}, environmentVisibilityRow},
-        {"irradiance",              Need::litSkin,     {R::surface},               {R::lightMaps, R::oppositeSides, R::visibility}, {R::irradiance}, irradianceRow},
-        {"diffusion",               Need::litSkin,     {R::surface, R::irradiance}, {},                    {R::levels},     diffusionRow},
-        {"exitance",                Need::litSkin,     {R::levels},                {},                     {R::exitance},   exitanceRow},
-        {"composite",               Need::always,      {},                         {R::exitance, R::lightMaps, R::visibility}, {R::picture}, compositeRow},
+        // name                     need                reads                        reads if written              writes
+        {"surface",                 Need::skin,         {},                          {},                           {R::surface},    surfaceRow},
+        {"visible",                 Need::hiddenSkin,   {R::surface},                {},                           {R::seen},       visibleRow},
+        {"opposite",                Need::oppositeSides, {R::surface},               {R::seen},                    {R::thickness},  oppositeRow},
+        {"light_maps",              Need::shadows,      {},                          {},                           {R::lightMaps},  lightMapsRow},
+        {"thickness",               Need::translucency, {R::surface, R::lightMaps},  {R::seen},                    {R::thickness},  thicknessRow},
+        {"needed_texels",           Need::litSkin,      {R::surface},                {R::seen, R::thickness},      {R::tiles},      neededTexelsRow},
+        {"environment_visibility",  Need::environment,  {},                          {R::surface, R::tiles},       {R::visibility}, environmentVisibilityRow},
+        {"irradiance",              Need::litSkin,      {R::surface, R::tiles},      {R::thickness, R::lightMaps, R::visibility}, {R::irradiance}, irradianceRow},
+        {"diffusion",               Need::litSkin,      {R::surface, R::irradiance}, {},                           {R::levels},     diffusionRow},
+        {"exitance",                Need::litSkin,      {R::levels},                 {R::thickness},               {R::exitance},   exitanceRow},
+        {"composite",               Need::always,       {},                          {R::exitance, R::lightMaps, R::visibility}, {R::picture}, compositeRow},
     };
     return table;
 }

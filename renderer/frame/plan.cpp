@@ -27,6 +27,11 @@ Needs computeNeeds(const NeedsInput& input) {
         !skin ? "nothing is skin" : !lit ? "no light" : count(input.skinDraws, "piece") + " of skin");
     set(Need::litSkin, skin && lit,
         !skin ? "nothing is skin" : !lit ? "no light reaches the skin" : "skin is lit");
+    set(Need::hiddenSkin, skin && lit && input.prune,
+        !skin          ? "nothing is skin"
+        : !lit         ? "no light reaches the skin"
+        : !input.prune ? "--no-prune: skin is lit whether it is seen or not"
+                       : "only what the picture shows of the skin is worth lighting");
     set(Need::lights, lights, lights ? count(input.lightSamples, "light sample") : "no lights");
     set(Need::shadows, input.shadowedSamples > 0,
         input.shadowedSamples > 0 ? count(input.shadowedSamples, "light sample") + " with shadows"

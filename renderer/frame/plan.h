@@ -12,8 +12,10 @@ namespace cutis {
 struct FrameContext;
 
 // What a scene may need. A row of the pass table runs when its need is met.
-enum class Need { always, skin, litSkin, lights, shadows, translucency, oppositeSides, environment };
-inline constexpr int kNeedCount = 8;
+enum class Need {
+    always, skin, litSkin, hiddenSkin, lights, shadows, translucency, oppositeSides, environment
+};
+inline constexpr int kNeedCount = 9;
 
 // Each need with the reason for which it is met or not, in words.
 struct Needs {
@@ -28,11 +30,14 @@ struct NeedsInput {
     int lightSamples = 0, shadowedSamples = 0;
     bool environment = false;
     Merge merge = Merge::min;
+    bool prune = true;
 };
 Needs computeNeeds(const NeedsInput& input);
 
 // What passes hand to one another.
-enum class Resource { environmentMaps, surface, lightMaps, visibility, oppositeSides, irradiance, levels, exitance, visible, picture };
+enum class Resource {
+    surface, seen, lightMaps, thickness, tiles, visibility, irradiance, levels, exitance, picture
+};
 
 struct PassRow {
     const char* name;

@@ -73,7 +73,7 @@ std::uint64_t countNonfinite(std::span<const float> values) {
 }
 
 struct FrameReadbacks {
-    gpu::Readback picture, aovs, exitance;
+    gpu::Readback picture, aovs, exitance, tileCounts;
 };
 
 void fillStats(const FrameContext& frame, const Plan& plan, const std::vector<gpu::PassTiming>& timings,
@@ -120,7 +120,9 @@ void takePictures(const FrameContext& frame, const FrameReadbacks& readbacks, Re
     if (frame.skin.exitance) {
         const std::vector<float> exitance = readbacks.exitance.as<float>();
         result.stats.nonfinite += countNonfinite(exitance);
-        for (std::size_t i = 3; i < exitance.size(); i += 4) result.stats.atlasTexelsCovered += exitance[i] > 0;
+        const CoveredTexels texels = coveredTexels(readbacks.tileCounts);
+        result.stats.atlasTexelsCovered = texels.all;
+        result.stats.atlasTexelsLit = texels.lit;
     }
 }
 
@@ -207,6 +209,7 @@ RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const 
     NeedsInput needs;
     needs.merge = settings.merge;
     needs.environment = frame.environment != nullptr;
+    needs.prune = settings.prune;
     needs.lightSamples = static_cast<int>(frame.lightSamples.size());
     for (const LightSample& sample : frame.lightSamples) needs.shadowedSamples += sample.shadow;
     std::vector<bool> seen(scene.materials.size(), false);
@@ -261,7 +264,10 @@ RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const 
     FrameReadbacks readbacks;
     readbacks.picture = commands.readback(frame.target.picture);
     if (frame.target.aovs) readbacks.aovs = commands.readback(frame.target.aovs);
-    if (frame.skin.exitance) readbacks.exitance = commands.readback(frame.skin.exitance);
+    if (frame.skin.exitance) {
+        readbacks.exitance = commands.readback(frame.skin.exitance);
+        readbacks.tileCounts = commands.readback(frame.tiles.counts);
+    }
     commands.submitAndWait();
     result.stats.frameMs = millisecondsSince(frameStart);
     fillStats(frame, plan, commands.timings(), result.stats);

@@ -58,7 +58,8 @@ struct RenderStats {
     std::vector<PassStats> passes;
     std::vector<LeftOut> leftOut;
     int atlasWidth = 0, atlasHeight = 0;
-    std::uint64_t atlasTexelsCovered = 0;
+    std::uint64_t atlasTexelsCovered = 0;  // that hold skin
+    std::uint64_t atlasTexelsLit = 0;      // of them; the others are not seen, nor is their light
     double atlasMmPerTexel = 0;  // median over covered texels
     int lights = 0, lightSamples = 0, characters = 0, gaussians = 0;
     std::uint64_t bytesGpu = 0;

@@ -247,12 +247,16 @@ class Parser {
 
     void addVariable(const Id& variable) {
         const std::uint32_t storage = variable.operands[0];
+        // Variables of the shader's own may have any type.
+        if (storage != kPushConstant && storage != kUniformConstant && storage != kUniform &&
+            storage != kStorageBuffer) {
+            return;
+        }
         const Id* type = &at(at(variable.type).operands[1]);  // what the pointer points to
         if (storage == kPushConstant) {
             result_.pushBytes = sizeOf(*type, {});
             return;
         }
-        if (storage != kUniformConstant && storage != kUniform && storage != kStorageBuffer) return;
         BindingInfo info;
         info.name = variable.name;
         info.binding = variable.get(kBinding);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "renderer/gpu/device.h"
+#include "renderer/passes/light_views.h"
 
 namespace cutis {
 namespace {
@@ -122,20 +123,30 @@ TileBuffers makeTileBuffers(gpu::Device& device, const SceneBuffers& scene, cons
     return buffers;
 }
 
-void recordView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
-                const shared::ViewCamera& camera, const ViewTile& tile, const TileBuffers& buffers) {
-    commands.upload(buffers.camera, std::vector{cameraOfTile(camera, tile)});
+void recordOpaqueView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                      const shared::ViewCamera& camera, const ViewTile& tile, const TileBuffers& buffers) {
+    const shared::ViewCamera tileCamera = cameraOfTile(camera, tile);
+    commands.upload(buffers.camera, std::vector{tileCamera});
     const auto width = static_cast<std::uint32_t>(tile.size.x * tile.supersampling);
     const auto height = static_cast<std::uint32_t>(tile.size.y * tile.supersampling);
     commands.beginRendering(
         {.colors = {{buffers.triangles.layer(buffers.layers - 1), gpu::ClearValue::integers(0)}},
          .depth = gpu::Attachment{buffers.depth, gpu::ClearValue::depth(1)}, .width = width, .height = height});
     for (const DrawRange& range : scene.ranges) {
-        if (!range.blended) drawRange(device, commands, scene, buffers.camera, range, nullptr);
+        if (range.blended || !reaches(tileCamera.worldToClip, range.boundsMin, range.boundsMax)) continue;
+        drawRange(device, commands, scene, buffers.camera, range, nullptr);
     }
     commands.endRendering();
+}
+
+void recordView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                const shared::ViewCamera& camera, const ViewTile& tile, const TileBuffers& buffers) {
+    recordOpaqueView(device, commands, scene, camera, tile, buffers);
     if (buffers.layers == 1) return;
 
+    const shared::ViewCamera tileCamera = cameraOfTile(camera, tile);
+    const auto width = static_cast<std::uint32_t>(tile.size.x * tile.supersampling);
+    const auto height = static_cast<std::uint32_t>(tile.size.y * tile.supersampling);
     // Depth peeling (Everitt 2001): each layer is the nearest surface behind the one before.
     commands.clear(buffers.peeledDepth[1], gpu::ClearValue::depth(0));
     for (int layer = 0; layer < buffers.layers - 1; ++layer) {
@@ -145,7 +156,8 @@ void recordView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers
              .depth = gpu::Attachment{buffers.peeledDepth[layer % 2], gpu::ClearValue::depth(1)},
              .width = width, .height = height});
         for (const DrawRange& range : scene.ranges) {
-            if (range.blended) drawRange(device, commands, scene, buffers.camera, range, &peel);
+            if (!range.blended || !reaches(tileCamera.worldToClip, range.boundsMin, range.boundsMax)) continue;
+            drawRange(device, commands, scene, buffers.camera, range, &peel);
         }
         commands.endRendering();
     }

@@ -40,6 +40,9 @@ int tileSize(const SceneBuffers& scene, int supersampling);
 // For tiles of up to `size` pixels.
 TileBuffers makeTileBuffers(gpu::Device& device, const SceneBuffers& scene, const glm::ivec2& size, int supersampling);
 
+// What the samples of a tile see: the opaque surfaces alone, or with all that is seen through.
+void recordOpaqueView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                      const shared::ViewCamera& camera, const ViewTile& tile, const TileBuffers& buffers);
 void recordView(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                 const shared::ViewCamera& camera, const ViewTile& tile, const TileBuffers& buffers);
 

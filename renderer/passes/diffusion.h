@@ -2,14 +2,14 @@
 // Shader: diffusion.comp.
 #pragma once
 
-#include <span>
-
+#include "renderer/passes/atlas_tiles.h"
 #include "renderer/passes/resources.h"
 
 namespace cutis {
 
-// Makes and fills light.levels: layer k holds the irradiance blurred to variance v_k of each chart's own profile.
-void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SurfaceImages& surface,
-                     std::span<const ChartRange> charts, SkinLight& light);
+// Makes and fills light.levels: layer k holds the irradiance blurred to variance v_k of each chart's own
+// profile.
+void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                     const SurfaceImages& surface, const AtlasTiles& tiles, SkinLight& light);
 
 }  // namespace cutis

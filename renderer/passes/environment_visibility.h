@@ -1,11 +1,12 @@
-// Environment visibility: which directions see the sky from each piece of skin and each vertex of everything else,
-// once per pose; and what share of the environment's light that leaves, once per environment (DESIGN §1.4).
-// Shaders: environment_visibility.comp, environment_occlusion.comp.
+// Environment visibility: which directions see the sky from each piece of skin and each vertex of everything
+// else, once per pose; and what share of the environment's light that leaves, once per environment (DESIGN
+// §1.4). Shaders: environment_visibility.comp, environment_occlusion.comp.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <span>
 
+#include "renderer/passes/atlas_tiles.h"
 #include "renderer/passes/resources.h"
 #include "renderer/scene/scene.h"
 
@@ -13,23 +14,25 @@ namespace cutis {
 
 struct VisibilityInput {
     const SceneBuffers* scene;
-    const SurfaceImages* surface = nullptr;      // nullptr: no skin
-    std::span<const ChartRange> charts;          // of the skin
-    std::span<const shared::DrawInfo> draws;     // as uploaded
+    const SurfaceImages* surface = nullptr;       // nullptr: no skin
+    const AtlasTiles* tiles = nullptr;            // with surface: where skin needs it
+    std::span<const shared::DrawInfo> draws;      // as uploaded
     std::span<const std::uint32_t> vertexCounts;  // of each draw
-    std::span<const Bounds> groups;              // receivers, world
-    Bounds casters;                              // world
+    std::span<const Bounds> groups;               // receivers, world
+    Bounds casters;                               // world
     glm::dvec3 origin{0};
     std::uint32_t probeCount = 0;  // vertices that are not skin
     int mapSize = 256;             // texels of a direction's depth map
     float clearance = 0;           // metres by which the meshes drawn may stand above the surface
 };
 
-// Fills the bits of `directions` (unit, towards the sky; a multiple of 32).
+// Fills the bits of `directions` (unit, towards the sky; shared::VISIBILITY_DIRECTIONS of them).
 EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Commands& commands,
-                                                  const VisibilityInput& input, std::span<const glm::vec3> directions);
+                                                  const VisibilityInput& input,
+                                                  std::span<const glm::vec3> directions);
 
-// Fills occlusion, openSky and probes from the bits and from what arrives around each direction (already rotated).
+// Fills occlusion, openSky and probes from the bits and from what arrives around each direction (already
+// rotated).
 void recordEnvironmentOcclusion(gpu::Device& device, gpu::Commands& commands, const VisibilityInput& input,
                                 std::span<const glm::vec3> directions,
                                 std::span<const shared::EnvironmentDirection> arriving,

@@ -5,16 +5,14 @@
 namespace cutis {
 namespace {
 
-struct SumPush {
-    glm::uvec4 rect;  // texels
-    std::uint32_t firstGaussian, gaussianCount;
-    float mmPerUnit;
+struct ExitancePush {
+    shared::TilePush tiles;
 };
 
 }  // namespace
 
 void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
-                    const SurfaceImages& surface, std::span<const ChartRange> charts, SkinLight& light) {
+                    const SurfaceImages& surface, const AtlasTiles& tiles, SkinLight& light) {
     const auto size = static_cast<std::uint32_t>(surface.size);
     light.exitance = gpu::Image(
         device, {.name = "exitance", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
@@ -24,20 +22,14 @@ void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuf
     const gpu::Image& entry = light.entry ? light.entry : surface.opposite;
     if (entry) {
         bindings.push_back({"entry", entry});
-        bindings.push_back({"incident", light.incident});
         bindings.push_back({"stretch", surface.stretch});
         bindings.push_back({"position", surface.position});
         bindings.push_back({"normal", surface.normal});
     }
-    // Texels between charts must read as uncovered.
+    // Whatever is not seen must read as uncovered.
     commands.clear(light.exitance);
     const gpu::Program& program = device.program(entry ? "exitance.comp+TRANSLUCENCY" : "exitance.comp");
-    for (const ChartRange& chart : charts) {
-        commands.dispatch(program, bindings,
-                          SumPush{chart.rect, chart.firstGaussian,
-                                  static_cast<std::uint32_t>(chart.profile.gaussians.size()), chart.mmPerUnit},
-                          gpu::groupsFor(program, chart.rect.z, chart.rect.w));
-    }
+    dispatchTiles(commands, program, bindings, ExitancePush{}, tiles, tiles.seen());
 }
 
 }  // namespace cutis

@@ -6,30 +6,75 @@
 #include "renderer/gpu/device.h"
 
 namespace cutis {
+namespace {
 
-void recordIrradiance(gpu::Device& device, gpu::Commands& commands, const IrradianceInput& input, SkinLight& light) {
-    const auto size = static_cast<std::uint32_t>(input.surface->size);
-    const auto image = [&](const char* name, VkFormat format) {
-        return gpu::Image(device, {.name = name, .format = format, .width = size, .height = size});
-    };
-    light.irradiance = image("irradiance", VK_FORMAT_R32G32B32A32_SFLOAT);
-    light.incident = image("incident", VK_FORMAT_R32G32B32A32_SFLOAT);
+struct LightsPush {
+    shared::TilePush tiles;
+    std::uint32_t firstSample, light, startsLight, firstView, groupCount;
+};
 
-    std::string shader = "irradiance.comp";
-    gpu::Bindings bindings{{"position", bilinear(device, input.surface->position)},
-                           {"normal", bilinear(device, input.surface->normal)},
-                           {"albedo", bilinear(device, input.surface->albedo)},
-                           {"stretch", bilinear(device, input.surface->stretch)},
+struct IrradiancePush {
+    shared::TilePush tiles;
+};
+
+// Adds the light samples, a few at a time, and makes light.visibility when any has a map.
+void recordLights(gpu::Device& device, gpu::Commands& commands, const IrradianceInput& input,
+                  SkinLight& light) {
+    const LightMaps& lights = *input.lights;
+    gpu::Bindings bindings{{"position", input.surface->position},
+                           {"normal", input.surface->normal},
                            {"DrawBuffer", input.scene->draws},
                            {"MaterialBuffer", input.scene->materials},
                            {"AlbedoTableBuffer", input.scene->albedoTable},
+                           {"LightBuffer", lights.samples},
                            {"irradiance", light.irradiance},
                            {"incident", light.incident}};
-    if (input.surface->opposite) {
-        shader += "+OPPOSITE";
-        bindings.push_back({"opposite", bilinear(device, input.surface->opposite)});
+    gpu::Bindings shadowed = bindings;
+    if (lights.depth) {
+        const auto size = static_cast<std::uint32_t>(input.surface->size);
+        light.visibility = gpu::Image(device, {.name = "light visibility",
+                                               .format = VK_FORMAT_R8_UNORM,
+                                               .width = size,
+                                               .height = size,
+                                               .layers = std::max(lights.lightCount, 1u)});
+        // Lights without shadow arrive.
+        commands.clear(light.visibility, gpu::ClearValue(1, 1, 1, 1));
+        shadowed.push_back({"LightViewBuffer", lights.views});
+        shadowed.push_back({"lightVisibility", light.visibility});
+        shadowed.push_back({"lightDepthCompare", depthComparison(device, lights.depth)});
+        shadowed.push_back({"lightDepth", nearest(device, lights.depth)});
     }
-    std::uint32_t lightCount = 0;
+    const AtlasTiles& tiles = *input.tiles;
+    for (const LightRun& run : lights.runs) {
+        const std::string shader = run.shadow ? "irradiance_lights.comp+SHADOWS" : "irradiance_lights.comp";
+        const LightsPush push{
+            {}, run.firstSample, run.light, run.startsLight ? 1u : 0u, run.firstView, lights.groupCount};
+        dispatchTiles(commands, device.program(shader, {{0, run.sampleCount}}),
+                      run.shadow ? shadowed : bindings, push, tiles, tiles.lit());
+    }
+}
+
+}  // namespace
+
+void recordIrradiance(gpu::Device& device, gpu::Commands& commands, const IrradianceInput& input,
+                      SkinLight& light) {
+    const auto size = static_cast<std::uint32_t>(input.surface->size);
+    const auto image = [&](const char* name) {
+        return gpu::Image(
+            device, {.name = name, .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
+    };
+    light.irradiance = image("irradiance");
+    light.incident = image("incident");
+    // Sums begin at 0; and what lies beyond the needed tiles is read with weight 0.
+    commands.clear(light.irradiance);
+    commands.clear(light.incident);
+    if (input.lights) recordLights(device, commands, input, light);
+
+    std::string shader = "irradiance.comp";
+    gpu::Bindings bindings{{"position", input.surface->position}, {"normal", input.surface->normal},
+                           {"albedo", input.surface->albedo},     {"stretch", input.surface->stretch},
+                           {"DrawBuffer", input.scene->draws},    {"MaterialBuffer", input.scene->materials},
+                           {"irradiance", light.irradiance},      {"incident", light.incident}};
     if (input.environment) {
         shader += "+ENVIRONMENT";
         bindings.push_back({"environmentIrradiance", bilinear(device, input.environment->irradiance)});
@@ -37,30 +82,12 @@ void recordIrradiance(gpu::Device& device, gpu::Commands& commands, const Irradi
         bindings.push_back({"environmentOcclusion", bilinear(device, input.visibility->occlusion)});
         bindings.push_back({"EnvironmentBuffer", *input.environmentSettings});
     }
-    if (input.lights) {
-        shader += "+LIGHTS";
-        lightCount = input.lights->sampleCount;
-        bindings.push_back({"LightBuffer", input.lights->samples});
-        if (input.lights->depth) {
-            shader += "+SHADOWS";
-            bindings.push_back({"LightViewBuffer", input.lights->views});
-            light.visibility = gpu::Image(device, {.name = "light visibility", .format = VK_FORMAT_R8_UNORM,
-                                                   .width = size, .height = size,
-                                                   .layers = std::max(input.lights->lightCount, 1u)});
-            commands.clear(light.visibility);
-            bindings.push_back({"lightVisibility", light.visibility});
-            bindings.push_back({"lightDepthCompare", depthComparison(device, input.lights->depth)});
-            bindings.push_back({"lightDepth", nearest(device, input.lights->depth)});
-        }
-        if (input.lights->entry) {
-            shader += "+TRANSLUCENCY";
-            light.entry = image("entry points", VK_FORMAT_R32G32_SFLOAT);
-            bindings.push_back({"lightEntry", input.lights->entry});
-            bindings.push_back({"entry", light.entry});
-        }
+    if (const gpu::Image& entry = light.entry ? light.entry : input.surface->opposite) {
+        shader += "+TRANSLUCENCY";
+        bindings.push_back({"entry", entry});
     }
-    const gpu::Program& program = device.program(shader);
-    commands.dispatch(program, bindings, lightCount, gpu::groupsFor(program, size, size));
+    dispatchTiles(commands, device.program(shader), bindings, IrradiancePush{}, *input.tiles,
+                  input.tiles->lit());
 }
 
 }  // namespace cutis

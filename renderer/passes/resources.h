@@ -56,9 +56,21 @@ struct SurfaceImages {
     gpu::Image opposite;  // only when thickness comes from the shape alone
 };
 
+// Samples of one light, one after the other, as many as a dispatch takes.
+struct LightRun {
+    std::uint32_t firstSample = 0, sampleCount = 0;
+    std::uint32_t firstView = 0;  // of the first sample; only with shadow
+    std::uint32_t light = 0;
+    bool shadow = false;
+    bool startsLight = false;
+};
+inline constexpr std::uint32_t kLongestLightRun = 4;
+
 // Filled by recordLightMaps. Layer = LightView::layer.
 struct LightMaps {
     int size = 0;
+    std::vector<LightRun> runs;
+    std::uint32_t groupCount = 0;  // of receivers: views of a sample
     gpu::Buffer samples, views;
     std::vector<shared::LightView> viewList;  // as uploaded
     std::uint32_t sampleCount = 0;
@@ -75,11 +87,13 @@ struct EnvironmentVisibility {
     gpu::Buffer vertexVisibility, probes;
 };
 
-// Filled by recordIrradiance, recordDiffusion and recordExitance.
+inline constexpr float kNoThickness = 60000;  // mm
+
+// Filled by recordThickness, recordIrradiance, recordDiffusion and recordExitance.
 struct SkinLight {
+    gpu::Image entry;       // place in the atlas in texels and thickness in mm; only when that comes from light maps
     gpu::Image irradiance;  // E' and the island
     gpu::Image incident;    // E and the thickness
-    gpu::Image entry;       // only when thickness comes from light maps
     gpu::Image visibility;  // a layer a light: share of it that arrives; only with shadows
     gpu::Image levels;      // a layer for each Gaussian
     gpu::Image scratch;     // between the two directions of a blur

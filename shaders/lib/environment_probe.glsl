@@ -5,12 +5,13 @@
 #ifndef VERTICES
 // The first covered texel of the block, or (-1, -1). `position` is declared by the includer.
 ivec2 probeTexel(ivec2 probe) {
-    ivec2 size = textureSize(position, 0);
-    for (int i = 0; i < 4; ++i) {
+    ivec2 last = textureSize(position, 0) - 1, found = ivec2(-1);
+    for (int i = 3; i >= 0; --i) {
         ivec2 texel = probe * 2 + ivec2(i & 1, i >> 1);
-        if (all(lessThan(texel, size)) && texelFetch(position, texel, 0).w > 0.0) return texel;
+        bool covered = texelFetch(position, min(texel, last), 0).w > 0.0 && texel == min(texel, last);
+        found = covered ? texel : found;
     }
-    return ivec2(-1);
+    return found;
 }
 #endif
 

@@ -81,15 +81,6 @@ struct OppositeVertex {
     float island;     // that it lies on, 0: there is none within reach
 };
 
-// A rectangle of the atlas: the UV layout of one skin material of one character.
-struct Chart {
-    uvec4 rect;        // x, y, width, height in texels
-    uint material;
-    uint character;
-    uint firstGaussian;  // in the gaussians buffer
-    uint gaussianCount;
-};
-
 struct GaussianTerm {
     vec3 weight;
     float variance;  // mm²
@@ -157,6 +148,10 @@ struct EnvironmentSettingsData {
     // apart, then what rough ones do.
     uint mediumSources, roughSources;
 };
+
+// Directions in which the environment's visibility is known, a multiple of 32: enough that a hemisphere's irradiance is
+// within 2 %.
+const uint VISIBILITY_DIRECTIONS = 128u;
 
 // A direction in which the environment's visibility is known, and the light that arrives from around it.
 struct EnvironmentDirection {

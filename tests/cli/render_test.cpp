@@ -59,7 +59,7 @@ TEST_F(Render, StatsHaveExactlyTheirKeys) {
     EXPECT_EQ(keysOf(stats),
               (Keys{"device", "passes", "left_out", "atlas", "lights", "light_samples", "characters",
                     "gaussians", "bytes_gpu", "nonfinite", "load_ms", "frame_ms"}));
-    EXPECT_EQ(keysOf(stats["atlas"]), (Keys{"width", "height", "texels_covered", "mm_per_texel"}));
+    EXPECT_EQ(keysOf(stats["atlas"]), (Keys{"width", "height", "texels_covered", "texels_lit", "mm_per_texel"}));
     ASSERT_FALSE(stats["passes"].empty());
     for (const Json& pass : stats["passes"])
         EXPECT_EQ(keysOf(pass), (Keys{"name", "runs", "gpu_ms", "reason"}));

@@ -57,6 +57,7 @@ Stats readStats(const std::filesystem::path& path) {
     atlas.at("width").get_to(stats.atlasWidth);
     atlas.at("height").get_to(stats.atlasHeight);
     atlas.at("texels_covered").get_to(stats.texelsCovered);
+    atlas.at("texels_lit").get_to(stats.texelsLit);
     atlas.at("mm_per_texel").get_to(stats.mmPerTexel);
     json.at("device").get_to(stats.device);
     json.at("lights").get_to(stats.lights);
@@ -222,6 +223,7 @@ Rendered render(const RenderJob& job) {
     std::vector<std::string> arguments = {CUTIS_PROGRAM, "render", folder / "scene.glb", "--rig",
                                           folder / "test.rig.json"};
     if (!job.environment) arguments.insert(arguments.end(), {"--env", "none"});
+    if (!job.prune) arguments.push_back("--no-prune");
     if (!job.merge.empty()) arguments.insert(arguments.end(), {"--merge", job.merge});
     if (job.irradianceSize > 0)
         arguments.insert(arguments.end(), {"--irradiance-size", std::to_string(job.irradianceSize)});

@@ -52,6 +52,7 @@ struct RenderJob {
     int width = 128, height = 128;
     int irradianceSize = 0;  // 0: the program's choice
     std::vector<std::string> aovs = {};
+    bool prune = true;
     std::string merge = {};  // as --merge takes it; empty: the default
 };
 
@@ -62,7 +63,7 @@ struct Stats {
     std::map<std::string, std::string> leftOut;  // reason, by name
     int lights = 0, lightSamples = 0, characters = 0, gaussians = 0;
     int atlasWidth = 0, atlasHeight = 0;
-    double texelsCovered = 0, mmPerTexel = 0, bytesGpu = 0, nonfinite = 0, loadMs = 0, frameMs = 0;
+    double texelsCovered = 0, texelsLit = 0, mmPerTexel = 0, bytesGpu = 0, nonfinite = 0, loadMs = 0, frameMs = 0;
     int runsOf(const std::string& pass) const { return runs.count(pass) ? runs.at(pass) : 0; }
 };
 

@@ -1,0 +1,79 @@
+// The atlas in tiles, and which of them a picture needs: passes over texels run on those and no others
+// (DESIGN §3).
+//
+// What a later step writes is what an earlier one reads, so tiles are listed in the order of the steps, from
+// the last thing done to the first:
+//
+//     seen       pixels look the skin up there                             thickness, exitance
+//     entries    light that shines through what is seen enters there
+//     level(k)   a texel of one of these reads level k there               second direction of blur k
+//     scratch(k) likewise what stands between its two directions           first direction of blur k
+//     lit        likewise what level 0 is made from                        irradiance
+//     probes     likewise what the sky's visibility there is made from     environment visibility and
+//     occlusion
+//
+// A pass runs on the tiles of its step and of all before it. Shaders: tiles_*.comp, lib/atlas_tiles.glsl.
+#pragma once
+
+#include <span>
+
+#include "renderer/passes/resources.h"
+#include "shaders/shared/atlas_tiles.h"
+
+namespace cutis {
+
+struct AtlasTiles {
+    gpu::Buffer charts, tiles, states;
+    gpu::Buffer list, counts, dispatches;
+    std::vector<std::uint32_t> receiverGroups;  // a chart
+    std::uint32_t count = 0;                    // of tiles, needed or not
+    std::uint32_t levels = 0;                   // of diffusion
+
+    std::uint32_t seen() const { return 0; }
+    std::uint32_t entries() const { return 1; }
+    std::uint32_t level(std::uint32_t k) const { return 1 + 2 * (levels - 1 - k); }  // k from 0
+    std::uint32_t scratch(std::uint32_t k) const { return level(k) + 1; }
+    std::uint32_t lit() const { return 1 + 2 * levels; }
+    std::uint32_t probes() const { return lit() + 1; }
+    std::uint32_t steps() const { return probes() + 1; }
+};
+
+// Finds the tiles that hold any of `triangles` (triangle + 1, 0: none), and lists them as seen.
+AtlasTiles recordCoveredTiles(gpu::Device& device, gpu::Commands& commands, const gpu::Image& triangles,
+                              std::span<const ChartRange> charts);
+
+// Makes seen only the tiles in which the marked ones (1) of the skin's first triangles lie.
+void recordSeenTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                     const gpu::Buffer& seenTriangles, AtlasTiles& tiles);
+
+// From what is seen and from entry points to all that is needed for it.
+void recordNeededTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                       AtlasTiles& tiles);
+
+// The bindings of lib/atlas_tiles.glsl beside those given.
+gpu::Bindings withTiles(gpu::Bindings bindings, const AtlasTiles& tiles);
+
+// What to push, and where the group counts lie, for the tiles of one chart needed up to `step`.
+shared::TilePush tilePush(const AtlasTiles& tiles, std::uint32_t chart, std::uint32_t step);
+std::uint64_t tileGroups(const shared::TilePush& push);
+std::uint64_t tileProbeGroups(const shared::TilePush& push);  // four tiles a group
+
+// A pass with a work group for each tile needed up to `step`, chart by chart. Push begins with `TilePush
+// tiles`, which is filled in.
+template <class Push>
+void dispatchTiles(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
+                   Push push, const AtlasTiles& tiles, std::uint32_t step) {
+    const gpu::Bindings all = withTiles(bindings, tiles);
+    for (std::uint32_t chart = 0; chart < tiles.receiverGroups.size(); ++chart) {
+        push.tiles = tilePush(tiles, chart, step);
+        commands.dispatchIndirect(program, all, push, tiles.dispatches, tileGroups(push.tiles));
+    }
+}
+
+// Covered texels, all of them and those needed up to AtlasTiles::lit.
+struct CoveredTexels {
+    std::uint32_t all = 0, lit = 0;
+};
+CoveredTexels coveredTexels(const gpu::Readback& counts);  // of AtlasTiles::counts
+
+}  // namespace cutis

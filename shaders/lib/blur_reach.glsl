@@ -1,0 +1,37 @@
+// How far diffusion.comp reads, at the most.
+#ifndef CUTIS_BLUR_REACH_GLSL
+#define CUTIS_BLUR_REACH_GLSL
+
+const int kMaxTaps = 12;   // on either side
+const float kReach = 3.5;  // standard deviations
+// Variance, in texels², that bilinear lookup adds along each axis: ∫ f (1 - f) df.
+const float kLookupVariance = 1.0 / 6.0;
+
+// Of a kernel of standard deviation `sigma` over a source smooth over `smoothness`, both in texels and not below those of
+// any texel: with steps of s its last tap lies within kReach·σ + s, and with steps of one where that is rounded up.
+float kernelReach(float sigma, float smoothness) {
+    float step = max(max(floor(smoothness), 1.0), ceil(sigma * kReach / float(kMaxTaps)));
+    float reach = sigma * kReach;
+    return step == 1.0 ? max(ceil(reach), 1.0) : floor(reach) + step;
+}
+
+// Texels along u and v that are read away from a texel by one direction (diffusion.comp's axis) of the blur from variance
+// `previous` to `previous + added` (mm²). perMm: covariance in texels² of a Gaussian of 1 mm², along u, along v and
+// between them, not below that of any texel.
+ivec2 blurReach(vec3 perMm, float added, float previous, uint axis) {
+    vec2 before = max(previous * perMm.xy - kLookupVariance, 0.0);
+    vec2 after = max((previous + added) * perMm.xy - kLookupVariance, 0.0);
+    vec2 sigma = sqrt(min(after, added * perMm.xy));
+    if (sigma.x == 0.0 && sigma.y == 0.0) return ivec2(0);
+    vec2 smoothness = sqrt(before);
+    if (axis == 1u) return ivec2(0, int(min(kernelReach(sigma.y, smoothness.y), 1e6)));
+    vec2 along = vec2(kernelReach(sigma.x, smoothness.x), 0.0);
+    if (perMm.z > 0.0) {
+        // Skew taps end within the same distances, and fall between two texels across their direction.
+        along = vec2(kernelReach(sigma.x, max(smoothness.x, smoothness.y)),
+                     kernelReach(sigma.y, max(smoothness.x, smoothness.y))) + 1.0;
+    }
+    return ivec2(min(along, 1e6));
+}
+
+#endif

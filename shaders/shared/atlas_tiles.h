@@ -1,0 +1,50 @@
+// The atlas in tiles of 8 × 8 texels: passes run on those that a picture needs, and no others.
+#ifndef CUTIS_SHARED_ATLAS_TILES_H
+#define CUTIS_SHARED_ATLAS_TILES_H
+#include "shared/interop.h"
+CUTIS_SHARED_BEGIN
+
+const uint ATLAS_TILE = 8u;             // texels along each side
+const uint TILE_UNNEEDED = 0xffffffffu;  // as AtlasTileState::step
+const uint TILE_ROW = 32768u;           // tiles along x of a dispatch: devices bound the groups along one axis
+
+// A rectangle of the atlas: the UV layout of one skin material of one character.
+struct AtlasChart {
+    uvec4 rect;       // x, y, width, height in texels
+    uvec2 firstCell;  // first cell of the atlas' grid of tiles that holds a part of it
+    uvec2 cells;
+    uint firstTile;   // the chart's tiles follow one another, row by row of its cells
+    uint firstGaussian, gaussianCount;
+    float mmPerUnit;
+};
+
+// A cell of the grid as one chart uses it; where charts meet, each has a tile of its own.
+struct AtlasTile {
+    uvec2 corner;  // texels
+    uint chart;
+};
+
+struct AtlasTileState {
+    uint covered;  // texels of the chart that hold surface
+    uint step;     // how early the tile is needed: see passes/atlas_tiles.h
+    // Largest covariance in texels² of a Gaussian of 1 mm²: along u, along v, and between them, as the bits of floats.
+    uint perMmU, perMmV, perMmMixed;
+};
+
+// The tiles of one chart that are needed up to one step, and the work groups for them.
+struct TileDispatch {
+    uvec3 groups;       // one a tile
+    uvec3 probeGroups;  // one for four tiles
+    uint tiles;
+};
+
+// What a pass over tiles is pushed first. All its invocations work on one chart: a software device reads what push
+// constants alone point at once for all of them.
+struct TilePush {
+    uint chart;
+    uint dispatch;  // index of its TileDispatch
+    uint receiverGroup;
+};
+
+CUTIS_SHARED_END
+#endif
