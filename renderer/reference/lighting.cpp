@@ -12,7 +12,7 @@ namespace cutis::reference {
 namespace {
 
 // Purposes of random pairs; lights take two each from kFirstLight on.
-enum Purpose : std::uint32_t { kStrategy, kCell, kPlace, kLobe, kFirstLight };
+enum Purpose : std::uint32_t { kStrategy, kCell, kPlace, kLobe, kEnvironmentAgain, kFirstLight };
 
 // Of a scene of many lights, each point asks about as many as matter to it: a light is asked with a
 // probability of this often its share of the unoccluded light, and counts for the rest of the times.
@@ -105,8 +105,7 @@ void Lighting::gatherEnvironment(const SurfacePoint& point, const glm::dvec3& n,
                                  const RandomNumbers& random, std::vector<Incident>& incident) const {
     // One direction from a mixture of densities. The cosine's share keeps weights bounded wherever the others
     // are thin.
-    const double lobeShare = lobe ? 0.5 : 0, cosineShare = lobe ? 0.1 : 0.15,
-                 lightShare = 1 - lobeShare - cosineShare;
+    const double lobeShare = lobe ? 0.5 : 0, cosineShare = 0.03, lightShare = 1 - lobeShare - cosineShare;
     const double strategy = random.pair(kStrategy).x;
     glm::dvec3 direction;
     if (strategy < lightShare) {
@@ -132,7 +131,15 @@ void Lighting::gather(const SurfacePoint& point, const glm::dvec3& n, const Lobe
     incident.clear();
     gatherLights(point, n, lobe, random, incident);
     if (lobe) gatherLobe(point, n, *lobe, random.pair(kLobe), incident);
-    if (!environment_.empty()) gatherEnvironment(point, n, lobe, random, incident);
+    if (environment_.empty()) return;
+    gatherEnvironment(point, n, lobe, random, incident);
+    if (lobe) return;
+    // What diffuses is worth a second direction of the sky: most of the noise is whether the one drawn is
+    // open.
+    gatherEnvironment(point, n, lobe, random.branch(kEnvironmentAgain), incident);
+    for (Incident& from : incident) {
+        if (from.environment) from.irradiance *= 0.5;
+    }
 }
 
 }  // namespace cutis::reference

@@ -73,9 +73,9 @@ class Evaluation {
     bool outOfTime() const { return settings_.budget > 0 && secondsSince(start_) >= settings_.budget; }
     bool finished() const;
     bool runPass();
-    PixelSum evaluatePixel(int x, int y);
+    PixelSum evaluatePixel(int x, int y, int pass);
     void addSample(int x, int y, const RandomNumbers& random, SampleSum& sum);
-    void report(double fraction);
+    void report(int passes, double fraction);
     void takeResult(Result& result);
 
     const Input& input_;
@@ -115,19 +115,19 @@ bool Evaluation::finished() const {
     return outOfTime();
 }
 
-void Evaluation::report(double fraction) {
+void Evaluation::report(int passes, double fraction) {
     if (!hooks_.progress) return;
     const std::unique_lock lock(reportMutex_, std::try_to_lock);
     if (!lock || secondsSince(lastReport_) < 0.2) return;
     lastReport_ = Clock::now();
-    Progress progress{sums_.passes(), fraction, error_, secondsSince(start_), -1};
+    Progress progress{passes, fraction, error_, secondsSince(start_), -1};
     double left = INFINITY;
     if (passesThisRun_ > 0) {
-        const double perPass = secondsInPasses_ / passesThisRun_, done = sums_.passes() + fraction;
+        const double perPass = secondsInPasses_ / passesThisRun_, done = passes + fraction;
         // Error falls with the root of the number of passes at least.
         if (settings_.error > 0 && error_ > 0) {
             const double needed =
-                std::max<double>(kLeastPasses, sums_.passes() * std::pow(error_ / settings_.error, 2));
+                std::max<double>(kLeastPasses, passes * std::pow(error_ / settings_.error, 2));
             left = std::min(left, (needed - done) * perPass);
         }
         if (settings_.maxPasses > 0) left = std::min(left, (settings_.maxPasses - done) * perPass);
@@ -164,7 +164,7 @@ void Evaluation::addSample(int x, int y, const RandomNumbers& random, SampleSum&
     }
 }
 
-PixelSum Evaluation::evaluatePixel(int x, int y) {
+PixelSum Evaluation::evaluatePixel(int x, int y, int pass) {
     PixelSum result;
     const std::size_t pixel = std::size_t(y) * settings_.width + x;
     const bool irradiance = wantsIrradiance_ && points_[pixel];
@@ -173,8 +173,7 @@ PixelSum Evaluation::evaluatePixel(int x, int y) {
             RandomNumbers::mix((std::uint64_t(settings_.seed) << 8) + static_cast<std::uint32_t>(sequence)) +
             pixel);
         for (int s = 0; s < kSamplesPerSequence; ++s) {
-            const RandomNumbers random(key,
-                                       static_cast<std::uint32_t>(sums_.passes() * kSamplesPerSequence + s));
+            const RandomNumbers random(key, static_cast<std::uint32_t>(pass * kSamplesPerSequence + s));
             addSample(x, y, random, result.sequence[sequence]);
             if (!irradiance) continue;
             const PixelPoint& point = *points_[pixel];
@@ -185,24 +184,26 @@ PixelSum Evaluation::evaluatePixel(int x, int y) {
     return result;
 }
 
-// False when it was given up half-way; the sums are then what they were.
+// False when it was given up half-way. Rows that are done then stay so.
 bool Evaluation::runPass() {
     const Clock::time_point passStart = Clock::now();
-    std::vector<PixelSum> found(std::size_t(settings_.width) * settings_.height);
+    const int pass = sums_.passes();
     std::atomic<int> rowsDone{0};
     std::atomic<bool> givenUp{false};
-    parallelFor(std::size_t(settings_.height), [&](std::size_t y) {
-        if (givenUp || stopped() || (sums_.passes() >= kLeastPasses && outOfTime())) {
+    parallelFor(std::size_t(settings_.height), [&](std::size_t row) {
+        const int y = static_cast<int>(row);
+        if (givenUp || stopped() || (pass >= kLeastPasses && outOfTime())) {
             givenUp = true;
             return;
         }
-        for (int x = 0; x < settings_.width; ++x) {
-            found[y * settings_.width + x] = evaluatePixel(x, static_cast<int>(y));
+        if (sums_.passesOf(y) == pass) {
+            std::vector<PixelSum> found(settings_.width);
+            for (int x = 0; x < settings_.width; ++x) found[x] = evaluatePixel(x, y, pass);
+            sums_.addRow(y, found);
         }
-        report(double(++rowsDone) / settings_.height);
+        report(pass, double(++rowsDone) / settings_.height);
     });
     if (givenUp) return false;
-    sums_.add(found);
     ++passesThisRun_;
     secondsInPasses_ += secondsSince(passStart);
     error_ = std::max(sums_.pictureError(), sums_.diffuseError());
@@ -243,7 +244,6 @@ Result Evaluation::run() {
     if (settings_.resume && sums_.fromBytes(readCache(kCacheKind, key))) {
         error_ = std::max(sums_.pictureError(), sums_.diffuseError());
     }
-    const int passesSaved = sums_.passes();
     if (wantsData()) {
         points_.resize(std::size_t(settings_.width) * settings_.height);
         parallelFor(std::size_t(settings_.height), [&](std::size_t y) {
@@ -253,7 +253,9 @@ Result Evaluation::run() {
         });
     }
     Clock::time_point saved = Clock::now();
+    bool worked = false;
     while (!finished()) {
+        worked = true;
         if (!runPass()) {
             result.interrupted = stopped();
             break;
@@ -263,7 +265,7 @@ Result Evaluation::run() {
             saved = Clock::now();
         }
     }
-    if (settings_.resume && sums_.passes() > passesSaved) writeCache(kCacheKind, key, sums_.toBytes());
+    if (settings_.resume && worked) writeCache(kCacheKind, key, sums_.toBytes());
     if (!result.interrupted) takeResult(result);
     result.passes = sums_.passes();
     result.seconds = secondsSince(start_);

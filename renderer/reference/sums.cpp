@@ -8,44 +8,49 @@ namespace cutis::reference {
 namespace {
 
 struct Header {
-    std::uint32_t version, width, height, passes;
+    std::uint32_t version, width, height, sequences;
     std::uint64_t pixels;  // that are not all zero and follow, each after its index
 };
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 // Sequences of a half, or all of them.
 bool belongs(int sequence, int half) {
     return half < 0 || sequence % 2 == half;
 }
 
-double samplesOf(int passes, int half) {
-    return double(passes) * kSamplesPerPass / (half < 0 ? 1 : 2);
-}
-
 }  // namespace
 
-void Sums::add(const std::vector<PixelSum>& pass) {
-    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+int Sums::passes() const {
+    return *std::min_element(rowPasses_.begin(), rowPasses_.end());
+}
+
+double Sums::samplesOf(std::size_t pixel, int half) const {
+    return double(rowPasses_[pixel / width_]) * kSamplesPerPass / (half < 0 ? 1 : 2);
+}
+
+void Sums::addRow(int row, const std::vector<PixelSum>& found) {
+    for (int x = 0; x < width_; ++x) {
+        PixelSum& pixel = pixels_[std::size_t(row) * width_ + x];
         for (int s = 0; s < kSequences; ++s) {
-            SampleSum& to = pixels_[i].sequence[s];
-            const SampleSum& from = pass[i].sequence[s];
+            SampleSum& to = pixel.sequence[s];
+            const SampleSum& from = found[x].sequence[s];
             to.coverage += from.coverage;
             for (int c = 0; c < 3; ++c) to.picture[c] += from.picture[c], to.diffuse[c] += from.diffuse[c];
         }
-        for (int c = 0; c < 3; ++c) pixels_[i].irradiance[c] += pass[i].irradiance[c];
+        for (int c = 0; c < 3; ++c) pixel.irradiance[c] += found[x].irradiance[c];
     }
-    ++passes_;
+    ++rowPasses_[row];
 }
 
 Picture Sums::meanOf(Channels channels, int half) const {
     Picture result{width_, height_, 3, std::vector<float>(pixels_.size() * 3)};
-    for (std::size_t i = 0; passes_ > 0 && i < pixels_.size(); ++i) {
+    for (std::size_t i = 0; passes() > 0 && i < pixels_.size(); ++i) {
         for (int c = 0; c < 3; ++c) {
             double sum = 0;
             for (int s = 0; s < kSequences; ++s) {
                 if (belongs(s, half)) sum += (pixels_[i].sequence[s].*channels)[c];
             }
-            result.values[i * 3 + c] = static_cast<float>(sum / samplesOf(passes_, half));
+            result.values[i * 3 + c] = static_cast<float>(sum / samplesOf(i, half));
         }
     }
     return result;
@@ -54,13 +59,13 @@ Picture Sums::meanOf(Channels channels, int half) const {
 Picture Sums::picture(int half) const {
     const Picture rgb = meanOf(&SampleSum::picture, half);
     Picture result{width_, height_, 4, std::vector<float>(pixels_.size() * 4)};
-    for (std::size_t i = 0; passes_ > 0 && i < pixels_.size(); ++i) {
+    for (std::size_t i = 0; passes() > 0 && i < pixels_.size(); ++i) {
         std::copy_n(&rgb.values[i * 3], 3, &result.values[i * 4]);
         double coverage = 0;
         for (int s = 0; s < kSequences; ++s) {
             if (belongs(s, half)) coverage += pixels_[i].sequence[s].coverage;
         }
-        coverage /= samplesOf(passes_, half);
+        coverage /= samplesOf(i, half);
         // Sums of floats that should be one may miss it by a rounding.
         result.values[i * 4 + 3] = coverage > 1 - 1e-6 ? 1.f : static_cast<float>(coverage);
     }
@@ -84,20 +89,20 @@ Picture Sums::specular() const {
 
 Picture Sums::irradiance() const {
     Picture result{width_, height_, 3, std::vector<float>(pixels_.size() * 3)};
-    for (std::size_t i = 0; passes_ > 0 && i < pixels_.size(); ++i) {
+    for (std::size_t i = 0; passes() > 0 && i < pixels_.size(); ++i) {
         for (int c = 0; c < 3; ++c) {
-            result.values[i * 3 + c] = static_cast<float>(pixels_[i].irradiance[c] / samplesOf(passes_, -1));
+            result.values[i * 3 + c] = static_cast<float>(pixels_[i].irradiance[c] / samplesOf(i, -1));
         }
     }
     return result;
 }
 
-Sums::Estimate Sums::estimate(const PixelSum& pixel, Channels channels, int c) const {
-    const double perSequence = double(std::max(passes_, 1)) * kSamplesPerSequence;
+Sums::Estimate Sums::estimate(std::size_t pixel, Channels channels, int c) const {
+    const double perSequence = std::max(samplesOf(pixel, -1) / kSequences, 1.0);
     double sum = 0, squares = 0;
-    for (const SampleSum& sequence : pixel.sequence) sum += (sequence.*channels)[c] / perSequence;
+    for (const SampleSum& sequence : pixels_[pixel].sequence) sum += (sequence.*channels)[c] / perSequence;
     const double mean = sum / kSequences;
-    for (const SampleSum& sequence : pixel.sequence) {
+    for (const SampleSum& sequence : pixels_[pixel].sequence) {
         const double apart = (sequence.*channels)[c] / perSequence - mean;
         squares += apart * apart;
     }
@@ -108,8 +113,7 @@ Picture Sums::errorOf(Channels channels) const {
     Picture result{width_, height_, 3, std::vector<float>(pixels_.size() * 3)};
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         for (int c = 0; c < 3; ++c) {
-            result.values[i * 3 + c] =
-                static_cast<float>(std::sqrt(estimate(pixels_[i], channels, c).varianceOfMean));
+            result.values[i * 3 + c] = static_cast<float>(std::sqrt(estimate(i, channels, c).varianceOfMean));
         }
     }
     return result;
@@ -125,9 +129,9 @@ Picture Sums::diffuseStandardError() const {
 
 double Sums::relativeError(Channels channels) const {
     double error2 = 0, value2 = 0;
-    for (const PixelSum& pixel : pixels_) {
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
         for (int c = 0; c < 3; ++c) {
-            const Estimate e = estimate(pixel, channels, c);
+            const Estimate e = estimate(i, channels, c);
             error2 += e.varianceOfMean;
             value2 += e.mean * e.mean - e.varianceOfMean;  // E[mean²] = value² + variance
         }
@@ -151,14 +155,16 @@ std::vector<std::byte> Sums::toBytes() const {
             kept.push_back(static_cast<std::uint32_t>(i));
     }
     const Header header{kVersion, static_cast<std::uint32_t>(width_), static_cast<std::uint32_t>(height_),
-                        static_cast<std::uint32_t>(passes_), kept.size()};
-    std::vector<std::byte> bytes(sizeof header + kept.size() * (sizeof(std::uint32_t) + sizeof(PixelSum)));
+                        kSequences, kept.size()};
+    std::vector<std::byte> bytes(sizeof header + rowPasses_.size() * sizeof(std::int32_t) +
+                                 kept.size() * (sizeof(std::uint32_t) + sizeof(PixelSum)));
     std::byte* to = bytes.data();
     const auto put = [&to](const void* from, std::size_t size) {
         std::memcpy(to, from, size);
         to += size;
     };
     put(&header, sizeof header);
+    put(rowPasses_.data(), rowPasses_.size() * sizeof(std::int32_t));
     for (std::uint32_t i : kept) {
         put(&i, sizeof i);
         put(&pixels_[i], sizeof(PixelSum));
@@ -170,22 +176,23 @@ bool Sums::fromBytes(std::span<const std::byte> bytes) {
     Header header{};
     if (bytes.size() < sizeof header) return false;
     std::memcpy(&header, bytes.data(), sizeof header);
+    const std::size_t start = sizeof header + rowPasses_.size() * sizeof(std::int32_t);
     constexpr std::size_t kEntry = sizeof(std::uint32_t) + sizeof(PixelSum);
     if (header.version != kVersion || header.width != static_cast<std::uint32_t>(width_) ||
-        header.height != static_cast<std::uint32_t>(height_) || header.pixels > pixels_.size() ||
-        bytes.size() != sizeof header + header.pixels * kEntry) {
+        header.height != static_cast<std::uint32_t>(height_) || header.sequences != kSequences ||
+        header.pixels > pixels_.size() || bytes.size() != start + header.pixels * kEntry) {
         return false;
     }
     std::vector<PixelSum> pixels(pixels_.size());
     for (std::uint64_t k = 0; k < header.pixels; ++k) {
-        const std::byte* from = bytes.data() + sizeof header + k * kEntry;
+        const std::byte* from = bytes.data() + start + k * kEntry;
         std::uint32_t index = 0;
         std::memcpy(&index, from, sizeof index);
         if (index >= pixels.size()) return false;
         std::memcpy(&pixels[index], from + sizeof index, sizeof(PixelSum));
     }
     pixels_ = std::move(pixels);
-    passes_ = static_cast<int>(header.passes);
+    std::memcpy(rowPasses_.data(), bytes.data() + sizeof header, start - sizeof header);
     return true;
 }
 

@@ -24,11 +24,14 @@ struct PixelSum {
 
 class Sums {
   public:
-    Sums(int width, int height) : width_(width), height_(height), pixels_(std::size_t(width) * height) {}
+    Sums(int width, int height)
+        : width_(width), height_(height), rowPasses_(height), pixels_(std::size_t(width) * height) {}
 
-    int passes() const { return passes_; }
-    // What one more pass found, a sum a pixel, in rows.
-    void add(const std::vector<PixelSum>& pass);
+    // Of the picture as a whole. Some rows may already have one more, where a pass was given up half-way.
+    int passes() const;
+    int passesOf(int row) const { return rowPasses_[row]; }
+    // What one more pass found in a row, a sum a pixel. Different rows may be added at the same time.
+    void addRow(int row, const std::vector<PixelSum>& found);
 
     // Means over all sequences (half -1), or over the even (0) or odd (1) ones.
     Picture picture(int half = -1) const;  // RGBA
@@ -53,12 +56,14 @@ class Sums {
     struct Estimate {
         double mean, varianceOfMean;
     };
-    Estimate estimate(const PixelSum& pixel, Channels channels, int c) const;
+    Estimate estimate(std::size_t pixel, Channels channels, int c) const;
+    double samplesOf(std::size_t pixel, int half) const;
     Picture meanOf(Channels channels, int half) const;
     Picture errorOf(Channels channels) const;
     double relativeError(Channels channels) const;
 
-    int width_, height_, passes_ = 0;
+    int width_, height_;
+    std::vector<std::int32_t> rowPasses_;
     std::vector<PixelSum> pixels_;
 };
 

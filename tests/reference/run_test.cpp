@@ -72,10 +72,12 @@ TEST_F(ReferenceRun, StopsAndKeepsWhatIsDone) {
     EXPECT_TRUE(stopped.interrupted);
     EXPECT_TRUE(stopped.picture.values.empty());
     EXPECT_GE(stopped.passes, 2);
-    const auto continued = reference::evaluate(input_, settings(stopped.passes, true));
+    // Rows of the pass that was given up count in the next one.
+    const auto continued = reference::evaluate(input_, settings(stopped.passes + 1, true));
     EXPECT_FALSE(continued.interrupted);
+    EXPECT_EQ(continued.passes, stopped.passes + 1);
     EXPECT_EQ(continued.picture.values,
-              reference::evaluate(input_, settings(stopped.passes, false)).picture.values);
+              reference::evaluate(input_, settings(stopped.passes + 1, false)).picture.values);
 }
 
 TEST_F(ReferenceRun, ReachesTheErrorOrTheBudget) {
