@@ -14,8 +14,8 @@
 
 layout(local_size_x = 64) in;
 
-// Three vectors a probe: light of the visible directions, and the sum of their cosines (w); the same of all directions;
-// sum of the visible directions above the surface, and how many of how many there are (w: visible + 256 · all).
+// Three vectors a probe: light of the visible directions, and the integral of their cosines (w); the same of all
+// directions; integral of the visible directions above the surface, and their solid angle (w).
 #ifdef VERTICES
 layout(binding = 0, scalar) readonly buffer AttributeBuffer { VertexAttributes attributes[]; };
 layout(binding = 1, scalar) readonly buffer VisibilityBuffer { uint visibility[]; };
@@ -30,7 +30,7 @@ layout(binding = 4, rgba16f) writeonly uniform image2D openSky;    // xyz: mean 
 layout(binding = 7, scalar) readonly buffer DrawBuffer { DrawInfo draws[]; };
 layout(binding = 8, rgba32f) uniform image2DArray sums;
 #endif
-layout(binding = 5, scalar) readonly buffer DirectionBuffer { vec4 directions[]; };  // xyz: unit
+layout(binding = 5, scalar) readonly buffer DirectionBuffer { vec4 directions[]; };  // xyz: unit; w: solid angle, sr
 layout(binding = 6, scalar) readonly buffer EnvironmentDirectionBuffer { EnvironmentDirection arriving[]; };
 
 layout(push_constant, scalar) uniform Push {
@@ -49,12 +49,12 @@ void addDirections(uint visible, vec3 n, vec3 s, inout vec4 seen, inout vec4 all
     // Directions are found by push constants alone: a software device reads them once for all invocations.
     [[unroll]] for (uint i = 0u; i < 32u; ++i) {
         EnvironmentDirection from = arriving[push.word * 32u + i];
-        vec3 d = directions[push.word * 32u + i].xyz;
-        vec4 light = vec4(from.flux * max(dot(n, from.direction), 0.0), max(dot(n, d), 0.0));
-        float sees = float((visible >> i) & 1u), above = dot(s, d) > 0.0 ? 1.0 : 0.0;
+        vec4 part = directions[push.word * 32u + i];
+        vec4 light = vec4(from.flux * max(dot(n, from.direction), 0.0), part.w * max(dot(n, part.xyz), 0.0));
+        float sees = float((visible >> i) & 1u), above = dot(s, part.xyz) > 0.0 ? 1.0 : 0.0;
         all += light;
         seen += light * sees;
-        open += vec4(d * (sees * above), above * (sees + 256.0));
+        open += vec4(part.xyz, 1.0) * (part.w * sees * above);
     }
 }
 
@@ -65,8 +65,8 @@ vec3 shareOf(vec4 seen, vec4 all) {
 }
 
 vec3 openOf(vec4 open, vec3 s) {
-    float count = floor(open.w / 256.0), visible = open.w - 256.0 * count;
-    return safeNormalize(open.xyz, s) * (count > 0.0 ? visible / count : 1.0);
+    const float kHemisphere = 6.28318530717959;
+    return safeNormalize(open.xyz, s) * min(open.w / kHemisphere, 1.0);
 }
 
 // No early returns: what is read at one place for all invocations, a software device reads once only where they all are

@@ -163,16 +163,20 @@ void environmentVisibilityRow(FrameContext& frame) {
                                 .probeCount = frame.geometry.probeCount,
                                 .mapSize = kVisibilityMapSize,
                                 .clearance = 2 * static_cast<float>(frame.proxyError)};
-    const std::vector<glm::dvec3> directions = visibilityDirections(shared::VISIBILITY_DIRECTIONS);
-    const std::vector<glm::vec3> narrow(directions.begin(), directions.end());
     const EnvironmentSettings& settings = frame.input->rig.environment;
+    std::vector<glm::dvec3> directions;
+    std::vector<glm::vec4> parts;  // of the sky
+    for (const VisibilityDirection& part : visibilityDirections(*frame.environment, shared::VISIBILITY_DIRECTIONS)) {
+        directions.push_back(rotateAboutY(part.direction, settings.rotation));
+        parts.emplace_back(directions.back(), part.solidAngle);
+    }
     std::vector<shared::EnvironmentDirection> arriving;
     for (const DirectionalFlux& from :
          fluxPerDirection(frame.clusters, directions, settings.rotation, settings.intensity)) {
         arriving.push_back({glm::vec3(from.flux), glm::vec3(from.direction)});
     }
-    frame.visibility = recordEnvironmentVisibility(*frame.device, *frame.commands, input, narrow);
-    recordEnvironmentOcclusion(*frame.device, *frame.commands, input, narrow, arriving, frame.visibility);
+    frame.visibility = recordEnvironmentVisibility(*frame.device, *frame.commands, input, parts);
+    recordEnvironmentOcclusion(*frame.device, *frame.commands, input, parts, arriving, frame.visibility);
 }
 
 void irradianceRow(FrameContext& frame) {

@@ -38,7 +38,7 @@ void forEachProbeDraw(const VisibilityInput& input, Visit visit) {
 
 EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Commands& commands,
                                                   const VisibilityInput& input,
-                                                  std::span<const glm::vec3> directions) {
+                                                  std::span<const glm::vec4> directions) {
     EnvironmentVisibility result;
     result.directions = static_cast<int>(directions.size());
     const auto words = static_cast<std::uint32_t>((directions.size() + kBatch - 1) / kBatch);
@@ -57,7 +57,7 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
     std::vector<shared::LightView> views;
     for (std::size_t g = 0; g < input.groups.size(); ++g) {
         for (std::size_t d = 0; d < directions.size(); ++d) {
-            views.push_back(directionalView(-glm::dvec3(directions[d]), input.groups[g], input.casters,
+            views.push_back(directionalView(-glm::dvec3(glm::vec3(directions[d])), input.groups[g], input.casters,
                                             input.origin, input.mapSize));
             views.back().layer = static_cast<std::uint32_t>(g % kGroupBatch * kBatch + d % kBatch);
         }
@@ -127,14 +127,11 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
 }
 
 void recordEnvironmentOcclusion(gpu::Device& device, gpu::Commands& commands, const VisibilityInput& input,
-                                std::span<const glm::vec3> directions,
+                                std::span<const glm::vec4> directions,
                                 std::span<const shared::EnvironmentDirection> arriving,
                                 EnvironmentVisibility& visibility) {
-    std::vector<glm::vec4> padded;
-    for (const glm::vec3& d : directions) padded.emplace_back(d, 0);
-    const gpu::Buffer directionBuffer(device,
-                                      {.name = "sky directions", .bytes = padded.size() * sizeof(glm::vec4)});
-    commands.upload(directionBuffer, padded);
+    const gpu::Buffer directionBuffer(device, {.name = "sky directions", .bytes = directions.size_bytes()});
+    commands.upload(directionBuffer, std::as_bytes(directions));
     const gpu::Buffer arrivingBuffer(device, {.name = "sky light", .bytes = arriving.size_bytes()});
     commands.upload(arrivingBuffer, std::as_bytes(arriving));
     OcclusionPush push{{}, 0, 0, 0, 0, input.probeCount};

@@ -26,15 +26,16 @@ struct VisibilityInput {
     float clearance = 0;           // metres by which the meshes drawn may stand above the surface
 };
 
-// Fills the bits of `directions` (unit, towards the sky; shared::VISIBILITY_DIRECTIONS of them).
+// Fills the bits of `directions` (xyz: unit, towards the sky; w: solid angle that it stands for, sr;
+// shared::VISIBILITY_DIRECTIONS of them).
 EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Commands& commands,
                                                   const VisibilityInput& input,
-                                                  std::span<const glm::vec3> directions);
+                                                  std::span<const glm::vec4> directions);
 
 // Fills occlusion, openSky and probes from the bits and from what arrives around each direction (already
 // rotated).
 void recordEnvironmentOcclusion(gpu::Device& device, gpu::Commands& commands, const VisibilityInput& input,
-                                std::span<const glm::vec3> directions,
+                                std::span<const glm::vec4> directions,
                                 std::span<const shared::EnvironmentDirection> arriving,
                                 EnvironmentVisibility& visibility);
 

@@ -167,23 +167,60 @@ std::vector<glm::dvec3> visibilityDirections(int n) {
     return directions;
 }
 
+namespace {
+
+// The place of `target` in a list of weights laid end to end: an index and how far into it.
+std::pair<std::size_t, double> locate(std::span<const double> weights, double target) {
+    std::size_t i = 0;
+    while (i + 1 < weights.size() && target >= weights[i]) target -= weights[i++];
+    return {i, weights[i] > 0 ? std::clamp(target / weights[i], 0.0, 1.0) : 0.5};
+}
+
+// The Fibonacci lattice of visibilityDirections(n), its square warped so that equal areas hold equal sums of
+// `grid`.
+std::vector<glm::dvec3> warpedLattice(const EnvironmentCells& grid, int n) {
+    std::vector<double> rows(grid.height, 0), columns(grid.width);
+    double total = 0;
+    for (std::size_t i = 0; i < grid.cells.size(); ++i) rows[i / grid.width] += grid.cells[i].weight();
+    for (double row : rows) total += row;
+    std::vector<glm::dvec3> directions;
+    for (int i = 0; i < n; ++i) {
+        const auto [row, down] = locate(rows, (i + 0.5) / n * total);
+        for (int x = 0; x < grid.width; ++x) columns[x] = grid.cells[row * grid.width + x].weight();
+        const double turn = i * (2 - std::numbers::phi) + 0.75;  // from +X, as there
+        const auto [column, across] = locate(columns, (turn - std::floor(turn)) * rows[row]);
+        // Within a cell by solid angle, which is even in the cosine.
+        const double top = std::cos(kPi * double(row) / grid.height),
+                     bottom = std::cos(kPi * double(row + 1) / grid.height);
+        const double v = std::acos(std::clamp(top + down * (bottom - top), -1.0, 1.0)) / kPi;
+        directions.push_back(environmentDirection((double(column) + across) / grid.width, v));
+    }
+    return directions;
+}
+
+}  // namespace
+
 std::vector<VisibilityDirection> visibilityDirections(const Environment& environment, int n) {
     constexpr double kEvenShare = 1.0 / 3;
     const auto luminance = [&](std::size_t texel) {
         const glm::vec3& radiance = environment.radiance[texel];
         return (double(radiance.x) + radiance.y + radiance.z) / 3;
     };
-    const EnvironmentCells light =
-        sumEnvironment(environment, [&](std::size_t texel) { return glm::dvec3(luminance(texel)); });
+    const auto grey = [&](std::size_t texel) { return glm::dvec3(luminance(texel)); };
     double total = 0;
-    for (const FluxSums& cell : light.cells) total += cell.flux.x;
+    for (const FluxSums& cell : sumEnvironment(environment, grey).cells) total += cell.flux.x;
     const double mean = total / (4 * kPi);
     const EnvironmentCells mixed = sumEnvironment(environment, [&](std::size_t texel) {
         return glm::dvec3(mean > 0 ? (1 - kEvenShare) * luminance(texel) / mean + kEvenShare : 1);
     });
     std::vector<VisibilityDirection> directions;
-    for (const FluxSums& region : clusterCells(mixed, std::size_t(n)))
-        directions.push_back({glm::normalize(region.moment), region.solidAngle});
+    for (const glm::dvec3& direction : warpedLattice(mixed, n)) directions.push_back({direction, 0});
+    const std::vector<glm::dvec3> sphere = visibilityDirections(128 * n);
+    for (const glm::dvec3& point : sphere) {
+        std::max_element(directions.begin(), directions.end(), [&](const auto& a, const auto& b) {
+            return glm::dot(a.direction, point) < glm::dot(b.direction, point);
+        })->solidAngle += 4 * kPi / double(sphere.size());
+    }
     return directions;
 }
 

@@ -49,10 +49,10 @@ struct VisibilityDirection {
     double solidAngle = 0;    // sr; all together 4π
 };
 
-// n directions, dense where the light of the environment is and never sparse: rectangles of the sphere are
-// halved where light and spread are largest, a third of what counts as light being spread evenly. The shadow
-// of a small bright source is thus an average over many directions, and an even sky is seen as well as by
-// visibilityDirections(n).
+// n directions, dense where the light of the environment is and never sparse: the lattice of
+// visibilityDirections(n), warped by what each part of the sphere sends, a third of it spread evenly. The
+// shadow of a small bright source is thus an average over many directions. Each stands for the part of the
+// sphere that is nearest to it.
 std::vector<VisibilityDirection> visibilityDirections(const Environment& environment, int n);
 
 // The part of an environment nearest to one visibility direction.

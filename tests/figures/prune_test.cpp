@@ -66,7 +66,7 @@ TEST_P(HiddenSkin, IsNotLitAndThePictureIsTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, HiddenSkin, ::testing::ValuesIn(kCases),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace
 }  // namespace cutis::test
