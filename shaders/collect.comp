@@ -114,26 +114,68 @@ void collectGroups(ivec2 pixel, uint packedPixel) {
     imageStore(pixels, pixel, uvec4(first, uint(groups), 0u, 0u));
 }
 
-// With surfaces that are seen through: every sample by itself, its surfaces from the nearest.
+// Whether two samples see like surfaces one behind the other.
+bool alikeStacks(ivec2 pixel, int first, int second) {
+    for (int layer = 0; layer < push.layers; ++layer) {
+        uint a = triangleAt(pixel, first, layer), b = triangleAt(pixel, second, layer);
+        if ((a == 0u) != (b == 0u) || (a != 0u && !alike(a - 1u, b - 1u))) return false;
+    }
+    return true;
+}
+
+// With surfaces that are seen through: the same for whole stacks of surfaces. A group is as many points as its stack has
+// surfaces, from the nearest; a negative weight says that a point lies behind the one before it.
 void collectLayers(ivec2 pixel, uint packedPixel) {
     int total = push.supersampling * push.supersampling;
-    uint count = 0u;
+    int leader[MAX_SAMPLES];  // sample
+    ivec2 place[MAX_SAMPLES];
+    int size[MAX_SAMPLES];
+    int group[MAX_SAMPLES];
+    int groups = 0;
     for (int s = 0; s < total; ++s) {
-        for (int layer = 0; layer < push.layers; ++layer) count += triangleAt(pixel, s, layer) != 0u ? 1u : 0u;
+        int g = 0;
+        while (g < groups && !alikeStacks(pixel, leader[g], s)) ++g;
+        if (g == groups) {
+            leader[g] = s;
+            place[g] = ivec2(0);
+            size[g] = 0;
+            ++groups;
+        }
+        group[s] = g;
+        place[g] += cellOf(s);
+        ++size[g];
+    }
+    // Data channels show the largest group that sees something opaque, or else anything.
+    uint count = 0u;
+    int shown = -1;
+    bool shownOpaque = false;
+    for (int g = 0; g < groups; ++g) {
+        uint surfaces = 0u;
+        for (int layer = 0; layer < push.layers; ++layer) surfaces += triangleAt(pixel, leader[g], layer) != 0u ? 1u : 0u;
+        count += surfaces;
+        if (surfaces == 0u) continue;
+        bool opaque = triangleAt(pixel, leader[g], push.layers - 1) != 0u;
+        if (shown < 0 || (opaque && !shownOpaque) || (opaque == shownOpaque && size[g] > size[shown])) {
+            shown = g;
+            shownOpaque = opaque;
+        }
     }
     uint first = count > 0u ? atomicAdd(pointCount, count) : 0u, next = first;
-    bool opaqueSeen = false;
-    for (int s = 0; s < total; ++s) opaqueSeen = opaqueSeen || triangleAt(pixel, s, push.layers - 1) != 0u;
-    bool data = true;  // still wanted
-    for (int s = 0; s < total; ++s) {
+    for (int g = 0; g < groups; ++g) {
+        vec2 mean = (vec2(place[g]) / float(size[g]) + 0.5) / float(push.supersampling);
+        int nearest = 0x7fffffff, seen = leader[g];
+        for (int s = 0; s < total; ++s) {
+            ivec2 apart = cellOf(s) * size[g] - place[g];
+            int squared = apart.x * apart.x + apart.y * apart.y;
+            if (group[s] == g && squared < nearest) nearest = squared, seen = s;
+        }
+        float weight = float(size[g]) / float(total);
         bool front = true;
         for (int layer = 0; layer < push.layers; ++layer) {
-            uint id = triangleAt(pixel, s, layer);
+            uint id = triangleAt(pixel, seen, layer);
             if (id == 0u) continue;
-            bool fills = data && (!opaqueSeen || layer == push.layers - 1);
-            append(next++, ShadingPoint(id - 1u, packedPixel, packUnorm2x16(placeOf(s)),
-                                        (front ? 1.0 : -1.0) / float(total)), fills);
-            if (fills) data = false;
+            bool fills = g == shown && (shownOpaque ? layer == push.layers - 1 : front);
+            append(next++, ShadingPoint(id - 1u, packedPixel, packUnorm2x16(mean), front ? weight : -weight), fills);
             front = false;
         }
     }
