@@ -50,6 +50,11 @@ struct FrameContext {
     shared::ViewCamera camera{};
     TileBuffers viewTile;  // made by whoever first looks through the camera
     PictureTarget target;
+
+    // Back to what is uploaded and filtered: nothing of a frame that was drawn is left.
+    void forgetFrame() {
+        surface = {}, oppositeVertices = {}, tiles = {}, lights = {}, visibility = {}, skin = {}, viewTile = {}, target = {};
+    }
 };
 
 }  // namespace cutis

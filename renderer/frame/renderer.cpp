@@ -76,15 +76,18 @@ struct FrameReadbacks {
     gpu::Readback picture, aovs, exitance, tileCounts;
 };
 
-void fillStats(const FrameContext& frame, const Plan& plan, const std::vector<gpu::PassTiming>& timings,
+// `timings`: of each time that the frame was drawn.
+void fillStats(const FrameContext& frame, const Plan& plan, const std::vector<std::vector<gpu::PassTiming>>& timings,
                RenderStats& stats) {
     stats.device = frame.device->info().name;
     for (std::size_t i = 0; i < plan.rows.size(); ++i) {
         PassStats pass{plan.rows[i]->name, 0, 0, plan.reasons[i]};
-        for (const gpu::PassTiming& timing : timings) {
-            if (timing.name == pass.name) {
+        for (const std::vector<gpu::PassTiming>& repeat : timings) {
+            for (const gpu::PassTiming& timing : repeat) {
+                if (timing.name != pass.name) continue;
                 pass.runs = timing.runs;
                 pass.gpuMs = timing.milliseconds;
+                pass.repeatedMs.push_back(timing.milliseconds);
             }
         }
         stats.passes.push_back(pass);
@@ -166,6 +169,31 @@ void uploadEnvironment(FrameContext& frame) {
                                     .bytes = sizeof(data[0]) + sources.size() * sizeof(sources[0])});
     frame.commands->upload(frame.environmentSettings, data);
     if (!sources.empty()) frame.commands->upload(frame.environmentSettings, sources, sizeof(data[0]));
+}
+
+// Draws the frame once, from nothing but the uploaded scene.
+std::vector<gpu::PassTiming> drawFrame(FrameContext& frame, const Plan& plan, FrameReadbacks& readbacks) {
+    frame.forgetFrame();
+    readbacks = {};
+    gpu::Commands commands = frame.device->begin();
+    frame.commands = &commands;
+    uploadFrameLights(frame);
+    if (frame.needs[Need::environment]) uploadEnvironment(frame);
+    prepareTarget(frame);
+    for (const PassRow* row : plan.rows) {
+        commands.beginPass(row->name);
+        row->record(frame);
+        commands.endPass();
+    }
+    readbacks.picture = commands.readback(frame.target.picture);
+    if (frame.target.aovs) readbacks.aovs = commands.readback(frame.target.aovs);
+    if (frame.skin.exitance) {
+        readbacks.exitance = commands.readback(frame.skin.exitance);
+        readbacks.tileCounts = commands.readback(frame.tiles.counts);
+    }
+    commands.submitAndWait();
+    frame.commands = nullptr;
+    return commands.timings();
 }
 
 }  // namespace
@@ -250,27 +278,15 @@ RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const 
     }
     result.stats.loadMs = millisecondsSince(start);
 
-    const Clock::time_point frameStart = Clock::now();
-    gpu::Commands commands = device.begin();
-    frame.commands = &commands;
-    uploadFrameLights(frame);
-    if (frame.needs[Need::environment]) uploadEnvironment(frame);
-    prepareTarget(frame);
-    for (const PassRow* row : plan.rows) {
-        commands.beginPass(row->name);
-        row->record(frame);
-        commands.endPass();
-    }
+    Clock::time_point frameStart;
     FrameReadbacks readbacks;
-    readbacks.picture = commands.readback(frame.target.picture);
-    if (frame.target.aovs) readbacks.aovs = commands.readback(frame.target.aovs);
-    if (frame.skin.exitance) {
-        readbacks.exitance = commands.readback(frame.skin.exitance);
-        readbacks.tileCounts = commands.readback(frame.tiles.counts);
+    std::vector<std::vector<gpu::PassTiming>> timings;
+    for (int repeat = 0; repeat < std::max(settings.repeats, 1); ++repeat) {
+        frameStart = Clock::now();
+        timings.push_back(drawFrame(frame, plan, readbacks));
     }
-    commands.submitAndWait();
     result.stats.frameMs = millisecondsSince(frameStart);
-    fillStats(frame, plan, commands.timings(), result.stats);
+    fillStats(frame, plan, timings, result.stats);
     takePictures(frame, readbacks, result);
     moveToWorld(result, frame.geometry.origin);
     return result;

@@ -25,6 +25,7 @@ struct RenderSettings {
     int gaussians = 0;       // the profile is reduced to this many Gaussians; 0: all
     int lightMapSize = 0;    // texels along each side of a light map; 0: chosen from the picture
     Merge merge = Merge::min;
+    int repeats = 1;    // the frame is drawn so often, for its times alone
     bool prune = true;  // false: run also what could be left out, on neutral inputs
     std::uint32_t seed = 0;
     std::vector<std::string> aovs;  // of kAovNames
@@ -44,8 +45,9 @@ struct RenderInput {
 struct PassStats {
     std::string name;
     int runs = 0;
-    double gpuMs = 0;
+    double gpuMs = 0;    // of the last frame
     std::string reason;  // why it runs
+    std::vector<double> repeatedMs = {};  // of each frame of RenderSettings::repeats
 };
 
 struct LeftOut {

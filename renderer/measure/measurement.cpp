@@ -14,13 +14,15 @@ struct TimedRuns {
     std::vector<double> total;
     std::map<std::string, std::vector<double>> passes;
 
-    void add(const RenderStats& stats) {
-        double sum = 0;
+    // All repeats but the first, which compiles programs and fills caches.
+    explicit TimedRuns(const RenderStats& stats) {
         for (const PassStats& pass : stats.passes) {
-            passes[pass.name].push_back(pass.gpuMs);
-            sum += pass.gpuMs;
+            if (pass.repeatedMs.empty()) continue;
+            std::vector<double>& timed = passes[pass.name];
+            timed.assign(pass.repeatedMs.begin() + 1, pass.repeatedMs.end());
+            total.resize(timed.size(), 0);
+            for (std::size_t i = 0; i < timed.size(); ++i) total[i] += timed[i];
         }
-        total.push_back(sum);
     }
 };
 
@@ -70,12 +72,9 @@ std::vector<Measurement> measureSettings(gpu::Device& device, const MeasureInput
                 subject = setting;
                 known = true;
             }
-            TimedRuns runs;
-            // The first run compiles programs and fills caches: it is not timed.
-            for (int i = 0; i <= input.repeats; ++i) {
-                result = renderPicture(device, render, quality);
-                if (i > 0) runs.add(result.stats);
-            }
+            quality.repeats = input.repeats + 1;
+            result = renderPicture(device, render, quality);
+            const TimedRuns runs(result.stats);
             row.gpu = timingOf(runs.total);
             for (const auto& [name, values] : runs.passes) row.passes[name] = timingOf(values);
             row.bytesGpu = result.stats.bytesGpu;
