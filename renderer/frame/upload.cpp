@@ -159,7 +159,7 @@ void uploadCharts(gpu::Device& device, gpu::Commands& commands, const Scene& sce
     uploaded.buffers.gaussians = uploadBuffer(device, commands, "gaussians", terms);
 }
 
-std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry) {
+std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry, const TextureArrays& arrays) {
     std::vector<DrawRange> ranges;
     for (const GeometryDraw& draw : geometry.draws) {
         const Material& material = scene.materials[draw.material];
@@ -173,6 +173,9 @@ std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry) 
         range.blended = material.alphaMode == AlphaMode::blend;
         range.doubleSided = material.doubleSided;
         range.masked = material.alphaMode != AlphaMode::opaque;
+        if (material.baseColorTexture) {
+            range.alphaGroup = static_cast<std::uint32_t>(arrays.places[material.baseColorTexture.texture].group);
+        }
         // Textures and vertex colours only lower alpha.
         const float needed = material.alphaMode == AlphaMode::mask ? material.alphaCutoff : 1.0f / 255;
         if (range.masked && material.baseColor.a < needed) continue;
@@ -201,7 +204,7 @@ UploadedScene uploadScene(gpu::Device& device, gpu::Commands& commands, const Sc
     buffers.attributes = uploadBuffer(device, commands, "attributes", geometry.attributes);
     buffers.triangleDraws = uploadBuffer(device, commands, "triangle draws", geometry.triangleDraws);
     buffers.draws = uploadBuffer(device, commands, "draws", geometry.drawInfos);
-    buffers.ranges = makeRanges(scene, geometry);
+    buffers.ranges = makeRanges(scene, geometry, arrays);
     if (!atlas.charts.empty()) {
         buffers.atlasVertices = uploadBuffer(device, commands, "atlas vertices", atlas.vertices);
         std::vector<std::uint32_t> all(geometry.skinTriangleCount);

@@ -78,7 +78,7 @@ void drawRange(gpu::Device& device, gpu::Commands& commands, const SceneBuffers&
     if (range.masked && !range.blended && scene.textured()) {
         fragment += "+TEXTURED";
         bindings.push_back({"materialTextures", scene.materialTextures});
-        constants = {{0, scene.textureGroups}};
+        constants = {{0, scene.textureGroups}, {2, range.alphaGroup}};
     }
     if (peel) {
         fragment += "+PEEL";

@@ -18,7 +18,7 @@ struct MapPush {
 // Draw calls of one kind: skin that takes light in, whatever else stops it, or one masked material.
 struct Batch {
     bool skin = false, masked = false;
-    std::uint32_t material = 0;  // of a masked batch
+    std::uint32_t material = 0, alphaGroup = 0;  // of a masked batch
     std::vector<gpu::DrawCall> calls;
 };
 
@@ -39,7 +39,7 @@ std::vector<Batch> batchesFor(const SceneBuffers& scene, const LightMapTargets& 
                 batch = &known;
             }
         }
-        if (!batch) batch = &batches.emplace_back(Batch{skin, range.masked, range.material, {}});
+        if (!batch) batch = &batches.emplace_back(Batch{skin, range.masked, range.material, range.alphaGroup, {}});
         std::vector<gpu::DrawCall>& calls = batch->calls;
         if (!calls.empty() && calls.back().first + calls.back().count == first) {
             calls.back().count += count;
@@ -71,7 +71,7 @@ void drawBatch(gpu::Device& device, gpu::Commands& commands, const SceneBuffers&
     if (batch.masked && scene.textured()) {
         fragment += "+TEXTURED";
         bindings.push_back({"materialTextures", scene.materialTextures});
-        constants = {{0, scene.textureGroups}};
+        constants = {{0, scene.textureGroups}, {2, batch.alphaGroup}};
     }
     std::vector<std::string> shaders{vertex};
     if (targets.entry || batch.masked) shaders.push_back(fragment);

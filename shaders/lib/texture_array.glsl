@@ -13,13 +13,15 @@
 // How many of the textures there are: lookups into the rest are not compiled. A software device runs every branch for
 // every invocation, so that a texture that is not there would cost as much as one that is.
 layout(constant_id = 0) const uint TEXTURE_GROUPS = 16;
+// Where one texture is all that is ever looked up: which.
+layout(constant_id = 2) const uint ONLY_TEXTURE_GROUP = 0xffffffffu;
 
 // at: texture coordinates and layer; dx, dy: their change over one pixel. They choose the mip here, by the longer of the
 // two footprints: devices compute it from gradients each in its own way, and pictures should agree.
 vec4 sampleTextureArray(uint index, vec3 at, vec2 dx, vec2 dy) {
     vec4 value = vec4(0.0);
 #define CUTIS_SAMPLE(i) \
-    if (i < TEXTURE_GROUPS && index == i) { \
+    if (i < TEXTURE_GROUPS && (ONLY_TEXTURE_GROUP == 0xffffffffu || ONLY_TEXTURE_GROUP == i) && index == i) { \
         vec2 size = vec2(textureSize(CUTIS_TEXTURE_ARRAY[i], 0).xy); \
         float footprint = max(dot(dx * size, dx * size), dot(dy * size, dy * size)); \
         value = textureLod(CUTIS_TEXTURE_ARRAY[i], at, 0.5 * log2(max(footprint, 1e-12))); \
