@@ -72,6 +72,9 @@ class Comparison {
                     figure.add(column.error[c] / column.count, column.effect[c] / column.count);
         expectAtMost("reference " + name + ", of the diffusion's effect", figure.value(),
                      longRuns() ? kAim : limit);
+        // In a long run most pixels are as exact as sums of floats are; what is left says nothing about
+        // noise.
+        if (longRuns()) return;
         ASSERT_GE(cover_.count(), leastCount) << name;
         reportFigure("reference " + name + ", mean of error / standard error", cover_.mean());
         reportFigure("reference " + name + ", mean square of it", cover_.meanSquare());
