@@ -90,22 +90,28 @@ Camera frame(const std::vector<glm::dvec3>& points, const glm::dmat3& axes, doub
     return camera;
 }
 
+// Columns are the axes of a level camera that looks from these angles, in degrees: right, up, backwards.
+glm::dmat3 levelAxes(double azimuth, double elevation) {
+    const double az = glm::radians(azimuth), el = glm::radians(elevation);
+    const glm::dvec3 z(std::sin(az) * std::cos(el), std::sin(el), std::cos(az) * std::cos(el));
+    const glm::dvec3 x(std::cos(az), 0, -std::sin(az));  // level, and defined straight above too
+    return {x, glm::cross(z, x), z};
+}
+
 Camera autoCamera(const Scene& scene, double azimuth, double elevation, double aspect) {
     std::vector<glm::dvec3> points;
     for (const Character& character : scene.characters)
         addCorners(points, headAndShoulders(scene, character));
     if (points.empty()) addCorners(points, subjectlessBounds(scene));
-    const double az = glm::radians(azimuth), el = glm::radians(elevation);
-    const glm::dvec3 z(std::sin(az) * std::cos(el), std::sin(el), std::cos(az) * std::cos(el));
-    const glm::dvec3 x(std::cos(az), 0, -std::sin(az));  // level, and defined straight above too
-    return frame(points, {x, glm::cross(z, x), z}, aspect);
+    return frame(points, levelAxes(azimuth, elevation), aspect);
 }
 
-double parseNumber(std::string_view text, const std::string& selector) {
+double parseNumber(std::string_view text, const std::string& selector,
+                   const std::string& form = "must be auto:AZ,EL, two numbers in degrees") {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-        throw Error("cannot use camera '" + selector + "'", "must be auto:AZ,EL, two numbers in degrees");
+        throw Error("cannot use camera '" + selector + "'", form);
     }
     return value;
 }
@@ -120,6 +126,24 @@ Camera parseAuto(const Scene& scene, const std::string& selector, double aspect)
         throw Error("cannot use camera '" + selector + "'", "the elevation must be from -90 to 90");
     }
     return autoCamera(scene, azimuth, elevation, aspect);
+}
+
+Camera parseOrbit(const std::string& selector, double aspect) {
+    const std::string form = "must be orbit:X,Y,Z,AZ,EL,DISTANCE,FOV, seven numbers";
+    std::array<double, 7> v{};
+    std::string_view rest = std::string_view(selector).substr(std::string_view("orbit:").size());
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        const std::size_t comma = rest.find(',');
+        if ((comma == rest.npos) != (i + 1 == v.size()))
+            throw Error("cannot use camera '" + selector + "'", form);
+        v[i] = parseNumber(rest.substr(0, comma), selector, form);
+        rest.remove_prefix(comma == rest.npos ? rest.size() : comma + 1);
+    }
+    if (std::abs(v[4]) > 90 || !(v[5] > 0) || !(v[6] > 0 && v[6] < 180)) {
+        throw Error("cannot use camera '" + selector + "'",
+                    "the elevation must be from -90 to 90, the distance above 0, the field of view between 0 and 180");
+    }
+    return orbitCamera({v[0], v[1], v[2]}, v[3], v[4], v[5], glm::radians(v[6]), aspect);
 }
 
 const Camera& findCamera(const Scene& scene, const std::string& selector) {
@@ -141,9 +165,23 @@ const Camera& findCamera(const Scene& scene, const std::string& selector) {
 
 }  // namespace
 
+Camera orbitCamera(const glm::dvec3& target, double azimuth, double elevation, double distance, double yfov,
+                   double aspect) {
+    const glm::dmat3 axes = levelAxes(azimuth, elevation);
+    Camera camera;
+    camera.name = "orbit";
+    camera.yfov = yfov;
+    camera.aspect = aspect;
+    camera.world = glm::dmat4(axes);
+    camera.world[3] = glm::dvec4(target + distance * axes[2], 1);
+    camera.znear = 0.01 * distance;
+    return camera;
+}
+
 Camera cameraFor(const Scene& scene, const std::string& selector, double aspect) {
     const bool isAuto = selector == "auto" || selector.starts_with("auto:");
     if (isAuto) return parseAuto(scene, selector, aspect);
+    if (selector.starts_with("orbit:")) return parseOrbit(selector, aspect);
     if (selector.empty() && scene.cameras.empty()) return autoCamera(scene, 0, 0, aspect);
     Camera camera = selector.empty() ? scene.cameras[0] : findCamera(scene, selector);
     camera.aspect = aspect;

@@ -1,0 +1,115 @@
+// The worker with a renderer that only notes what it was asked for.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <semaphore>
+
+#include "app/viewer/render_worker.h"
+#include "renderer/core/error.h"
+#include "tests/cli/program.h"
+
+namespace cutis::test {
+namespace {
+
+using namespace app;
+using namespace std::chrono_literals;
+
+RenderState stateOf(double exposure, int width = 400, int height = 200) {
+    RenderState state;
+    state.scene = std::make_shared<Scene>(twoHeads());
+    state.rig.exposure = exposure;
+    state.settings.width = width;
+    state.settings.height = height;
+    return state;
+}
+
+RenderResult greyPicture(const RenderSettings& settings) {
+    RenderResult result;
+    result.picture = {settings.width, settings.height, 4, {}};
+    result.picture.values.assign(std::size_t(settings.width) * settings.height * 4, 0.18f);
+    result.stats.device = "paper";
+    return result;
+}
+
+// Results until the full picture of `version`, or for five seconds.
+std::vector<WorkerResult> resultsUntil(RenderWorker& worker, std::uint64_t version) {
+    std::vector<WorkerResult> results;
+    const auto end = std::chrono::steady_clock::now() + 5s;
+    while (std::chrono::steady_clock::now() < end) {
+        if (auto result = worker.takeResult()) results.push_back(std::move(*result));
+        if (!results.empty() && results.back().version == version && results.back().full) break;
+        std::this_thread::sleep_for(1ms);
+    }
+    return results;
+}
+
+TEST(RenderWorker, RefinesFromAQuarterToTheFullPicture) {
+    std::vector<int> widths;
+    RenderWorker worker(
+        [&] {
+            return [&](const RenderInput&, const RenderSettings& settings) {
+                widths.push_back(settings.width);
+                std::this_thread::sleep_for(std::chrono::milliseconds(120));  // slower than "instant"
+                return greyPicture(settings);
+            };
+        },
+        [] {});
+    worker.show(1, stateOf(0));
+    const std::vector<WorkerResult> results = resultsUntil(worker, 1);
+    ASSERT_FALSE(results.empty());
+    EXPECT_TRUE(results.back().full);
+    EXPECT_EQ(results.back().display.width, 400);
+    EXPECT_EQ(results.back().display.height, 200);
+    EXPECT_EQ(results.back().display.rgba.size(), 400u * 200 * 4);
+    EXPECT_EQ(results.back().stats.device, "paper");
+    EXPECT_EQ(widths, (std::vector<int>{100, 200, 400}));
+}
+
+TEST(RenderWorker, ANewerStateEndsTheRefinement) {
+    std::binary_semaphore begun(0), go(0);
+    std::vector<std::pair<double, int>> asked;
+    RenderWorker worker(
+        [&] {
+            return [&](const RenderInput& input, const RenderSettings& settings) {
+                asked.emplace_back(input.rig.exposure, settings.width);
+                if (asked.size() == 1) {
+                    begun.release();
+                    go.acquire();
+                }
+                return greyPicture(settings);
+            };
+        },
+        [] {});
+    worker.show(1, stateOf(1));
+    begun.acquire();
+    worker.show(2, stateOf(2));  // never rendered: 3 replaces it
+    worker.show(3, stateOf(3));
+    go.release();
+    const std::vector<WorkerResult> results = resultsUntil(worker, 3);
+    ASSERT_FALSE(results.empty());
+    EXPECT_TRUE(results.back().full);
+    ASSERT_GE(asked.size(), 2u);
+    EXPECT_EQ(asked[0], (std::pair<double, int>(1, 100)));
+    for (std::size_t i = 1; i < asked.size(); ++i) EXPECT_EQ(asked[i].first, 3);
+}
+
+TEST(RenderWorker, AFailureIsToldAndTheNextStateIsTried) {
+    RenderWorker worker(
+        [] {
+            return [](const RenderInput& input, const RenderSettings& settings) {
+                if (input.rig.exposure == 1) throw Error("device", "lost");
+                return greyPicture(settings);
+            };
+        },
+        [] {});
+    worker.show(1, stateOf(1));
+    for (int i = 0; i < 5000 && worker.status().error.empty(); ++i) std::this_thread::sleep_for(1ms);
+    EXPECT_NE(worker.status().error.find("lost"), std::string::npos);
+    worker.show(2, stateOf(0));
+    const std::vector<WorkerResult> results = resultsUntil(worker, 2);
+    ASSERT_FALSE(results.empty());
+    EXPECT_EQ(worker.status().error, "");
+}
+
+}  // namespace
+}  // namespace cutis::test
