@@ -242,9 +242,9 @@ std::vector<Option> makeOptions() {
          }},
 
         {"--camera", "CAMERA", kView, view,
-         "A camera's name or index, 'auto', or 'auto:AZ,EL': framed on the heads from that azimuth and "
-         "elevation in "
-         "degrees (default: the first camera of the scene, else auto)",
+         "A camera's name or index, 'auto', 'auto:AZ,EL': framed on the heads from that azimuth and elevation in "
+         "degrees, or 'orbit:X,Y,Z,AZ,EL,DISTANCE,FOV': looking at a point in metres from these angles (default: the "
+         "first camera of the scene, else auto)",
          false, [](Request& r, const std::string& text) { r.camera = parseText(text); }},
 
         {"--skin", "GLOB", kView, quality,
