@@ -30,6 +30,10 @@ std::vector<Setting> chooseSweep(const std::string& name) {
     return loadSweep(name);
 }
 
+// Thrown where an interruption ended the reference: no std::exception, so that it is no failure of one
+// setting.
+struct Interrupted {};
+
 // The exact picture. It keeps its own state in the cache, by the content of all that it shows, so that asking
 // again for the same costs nothing.
 SubjectReference makeReference(const Inputs& inputs, const Scene& scene, const Rig& rig,
@@ -38,12 +42,13 @@ SubjectReference makeReference(const Inputs& inputs, const Scene& scene, const R
                                  .rig = rig,
                                  .environment = inputs.environment ? &*inputs.environment : nullptr,
                                  .camera = inputs.camera};
-    const reference::Settings settings{.width = width,
-                                       .height = height,
-                                       .seed = request.settings.seed,
-                                       .error = request.error.value_or(request.budget > 0 ? 0 : 0.005),
-                                       .budget = request.budget,
-                                       .aovs = {"diffuse"}};
+    const reference::Settings settings{
+        .width = width,
+        .height = height,
+        .seed = request.settings.seed,
+        .error = request.error.value_or(request.budget > 0 ? 0 : reference::Settings{}.error),
+        .budget = request.budget,
+        .aovs = {"diffuse"}};
     static std::atomic<bool> stop{false};
     reference::Hooks hooks;
     hooks.stop = &stop;
@@ -55,7 +60,7 @@ SubjectReference makeReference(const Inputs& inputs, const Scene& scene, const R
     stopGentlyOnSignals(&stop);
     reference::Result result = reference::evaluate(input, settings, hooks);
     stopGentlyOnSignals(nullptr);
-    if (result.interrupted) std::exit(endingStatus());
+    if (result.interrupted) throw Interrupted{};
     SubjectReference made{.picture = std::move(result.picture),
                           .diffuse = std::move(result.aovs.at("diffuse"))};
     for (int half = 0; half < 2; ++half) {
@@ -85,7 +90,6 @@ int runMeasure(const Request& request) {
     deviceOptions.select = request.device;
     gpu::Device device(deviceOptions);
     const Inputs inputs = loading.get();
-    for (const char* name : {"pictures", "errors"}) fs::create_directories(folder / name);
 
     const MeasureInput input{.scene = &inputs.scene,
                              .rig = inputs.rig,
@@ -103,6 +107,9 @@ int runMeasure(const Request& request) {
         .height = input.height,
         .repeats = request.repeats,
         .tolerance = request.tolerance};
+    // From the start the folder is known as this report's, so that an interrupted run can be started again.
+    writeFileAtomically(folder / "measure.json", reportJson({}, info));
+    for (const char* name : {"pictures", "errors"}) fs::create_directories(folder / name);
     std::vector<Measurement> rows;
     MeasureHooks hooks;
     hooks.reference = [&](const Scene& scene, const Rig& rig) {
@@ -127,7 +134,12 @@ int runMeasure(const Request& request) {
                 : ("failed: " + row.failure).c_str());
         std::fflush(stdout);
     };
-    rows = measureSettings(device, input, settings, hooks);
+    try {
+        rows = measureSettings(device, input, settings, hooks);
+    } catch (const Interrupted&) {
+        warn("interrupted; the same command goes on with the reference from there");
+        return endingStatus();
+    }
     progress.setStage("writing");
     writeReport(folder, rows, info);
     for (const std::string& paragraph : reportText(rows, info)) std::printf("%s\n", paragraph.c_str());

@@ -91,8 +91,8 @@ fs::path rowFile(const char* folder, std::size_t row, const Measurement& measure
     return fs::path(folder) / (std::to_string(row) + '-' + name + ".png");
 }
 
-const Measurement* worstCase(const std::vector<Measurement>& rows,
-                             bool (*better)(const Measurement&, const Measurement&)) {
+const Measurement* leastRow(const std::vector<Measurement>& rows,
+                            bool (*better)(const Measurement&, const Measurement&)) {
     const Measurement* found = nullptr;
     for (const Measurement& row : rows)
         if (row.failure.empty() && (!found || better(row, *found))) found = &row;
@@ -159,10 +159,10 @@ std::string reportJson(const std::vector<Measurement>& rows, const ReportInfo& i
 
 std::vector<std::string> reportText(const std::vector<Measurement>& rows, const ReportInfo& info) {
     std::vector<std::string> text;
-    const Measurement* closest = worstCase(rows, [](const Measurement& a, const Measurement& b) {
+    const Measurement* closest = leastRow(rows, [](const Measurement& a, const Measurement& b) {
         return a.diffuse.relativeL2 < b.diffuse.relativeL2;
     });
-    const Measurement* fastest = worstCase(
+    const Measurement* fastest = leastRow(
         rows, [](const Measurement& a, const Measurement& b) { return a.gpu.median < b.gpu.median; });
     if (!closest) return {"No setting gave a picture."};
     const auto said = [](const Measurement& row) {

@@ -1,14 +1,12 @@
 #include "renderer/measure/sweep.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
-#include "renderer/core/suggest.h"
 #include "renderer/measure/variants.h"
 #include "renderer/scene/json_view.h"
 
