@@ -270,6 +270,14 @@ std::vector<Option> makeOptions() {
              if (text != "min" && text != "opposite") refuse(text, "min or opposite");
              r.settings.merge = text == "min" ? Merge::min : Merge::opposite;
          }},
+        {"--chain", "NAME", kPicture | kCompare, quality,
+         "How light is diffused: exact, or published, the chain of blurs as GPU Gems 3 prints it, to compare with "
+         "(default: exact)",
+         false,
+         [](Request& r, const std::string& text) {
+             if (text != "exact" && text != "published") refuse(text, "exact or published");
+             r.settings.chain = text == "exact" ? Chain::exact : Chain::published;
+         }},
         {"--seed", "N", kView, quality, "Starts the random numbers of whatever uses any (default: 0)",
          false,
          [](Request& r, const std::string& text) {

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
-// features: TRANSLUCENCY
+// features: TRANSLUCENCY BYTE_THICKNESS(TRANSLUCENCY)
 #include "shared/atlas_tiles.h"
 #include "shared/scene.h"
 #include "lib/octahedral.glsl"
@@ -69,6 +69,11 @@ void main() {
     vec4 found = texelFetch(entry, texel, 0);
     vec2 place = found.xy;
     float thickness = found.z;
+#ifdef BYTE_THICKNESS
+    // d'Eon & Luebke 2007, §14.5.3: exp(-20 t) in 8 bits, t in units of 100 mm. Nothing (0) is infinitely thick.
+    float stored = round(255.0 * exp(-0.2 * thickness)) / 255.0;
+    thickness = stored > 0.0 ? -5.0 * log(stored) : 60000.0;
+#endif
     if (place.x >= 0.0 && thickness < 60000.0) {
         // How far the entry point lies over the surface: light from nearby is in the local levels already.
         ivec2 entryTexel = ivec2(place);

@@ -11,6 +11,7 @@
 #include "renderer/passes/light_maps.h"
 #include "renderer/passes/light_views.h"
 #include "renderer/passes/opposite.h"
+#include "renderer/passes/published_diffusion.h"
 #include "renderer/passes/seen_triangles.h"
 #include "renderer/passes/surface.h"
 #include "renderer/passes/thickness.h"
@@ -193,11 +194,14 @@ void irradianceRow(FrameContext& frame) {
 }
 
 void diffusionRow(FrameContext& frame) {
-    recordDiffusion(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.tiles, frame.skin);
+    const auto record = frame.settings->chain == Chain::published ? recordPublishedDiffusion : recordDiffusion;
+    record(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.tiles, frame.skin);
 }
 
 void exitanceRow(FrameContext& frame) {
-    recordExitance(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.tiles, frame.skin);
+    recordExitance(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.tiles,
+                   frame.settings->chain == Chain::published ? ThicknessStorage::bytes : ThicknessStorage::floats,
+                   frame.skin);
 }
 
 // Both depend on the camera and work tile by tile, so one row holds them.

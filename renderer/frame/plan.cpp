@@ -27,10 +27,12 @@ Needs computeNeeds(const NeedsInput& input) {
         !skin ? "nothing is skin" : !lit ? "no light" : count(input.skinDraws, "piece") + " of skin");
     set(Need::litSkin, skin && lit,
         !skin ? "nothing is skin" : !lit ? "no light reaches the skin" : "skin is lit");
-    set(Need::hiddenSkin, skin && lit && input.prune,
+    const bool wholeSkin = input.chain == Chain::published;
+    set(Need::hiddenSkin, skin && lit && input.prune && !wholeSkin,
         !skin          ? "nothing is skin"
         : !lit         ? "no light reaches the skin"
         : !input.prune ? "--no-prune: skin is lit whether it is seen or not"
+        : wholeSkin    ? "the published chain blurs the whole atlas"
                        : "only what the picture shows of the skin is worth lighting");
     set(Need::lights, lights, lights ? count(input.lightSamples, "light sample") : "no lights");
     set(Need::shadows, input.shadowedSamples > 0,

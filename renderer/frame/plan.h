@@ -30,6 +30,7 @@ struct NeedsInput {
     int lightSamples = 0, shadowedSamples = 0;
     bool environment = false;
     Merge merge = Merge::min;
+    Chain chain = Chain::exact;
     bool prune = true;
 };
 Needs computeNeeds(const NeedsInput& input);

@@ -236,6 +236,7 @@ RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const 
 
     NeedsInput needs;
     needs.merge = settings.merge;
+    needs.chain = settings.chain;
     needs.environment = frame.environment != nullptr;
     needs.prune = settings.prune;
     needs.lightSamples = static_cast<int>(frame.lightSamples.size());

@@ -19,12 +19,17 @@ class Device;
 // of the other side of the skin, from its shape alone: linear in the lights, and the environment shines through too.
 enum class Merge { min, opposite };
 
+// How light is diffused. exact: DESIGN §1.4, with its corrections. published: as GPU Gems 3, ch. 14 prints it (seven fixed
+// taps, stretch by two lengths, thickness stored in 8 bits), to compare with.
+enum class Chain { exact, published };
+
 struct RenderSettings {
     int width = 1280, height = 720;
     int irradianceSize = 0;  // the atlas is exactly this many texels square; 0: chosen from the picture
     int gaussians = 0;       // the profile is reduced to this many Gaussians; 0: all
     int lightMapSize = 0;    // texels along each side of a light map; 0: chosen from the picture
     Merge merge = Merge::min;
+    Chain chain = Chain::exact;
     int repeats = 1;    // the frame is drawn so often, for its times alone
     bool prune = true;  // false: run also what could be left out, on neutral inputs
     std::uint32_t seed = 0;

@@ -43,6 +43,7 @@ std::vector<Setting> qualitySweep() {
             {.name = "environment in " + std::to_string(samples), .environmentSamples = samples});
     }
     settings.push_back({.name = "merge opposite", .merge = "opposite"});
+    settings.push_back({.name = "published chain", .chain = "published"});
     settings.push_back(
         {.name = "draft", .irradianceSize = 512, .gaussians = 3, .lightMapSize = 512, .areaSamples = 1});
     settings.push_back(
@@ -74,7 +75,7 @@ int readInteger(const JsonView& entry, const char* key, int fallback, int min, i
 
 Setting readSetting(const JsonView& entry, std::set<std::string>& names) {
     entry.allowOnly({"name", "irradiance_size", "gaussians", "light_map_size", "area_samples",
-                     "environment_samples", "merge", "lights", "characters"});
+                     "environment_samples", "merge", "chain", "lights", "characters"});
     Setting setting;
     setting.name = entry.member("name").string();
     if (setting.name.empty() || setting.name.size() > 100)
@@ -90,6 +91,9 @@ Setting readSetting(const JsonView& entry, std::set<std::string>& names) {
     setting.merge = entry.string("merge", "min");
     if (setting.merge != "min" && setting.merge != "opposite")
         entry.member("merge").fail("must be min or opposite");
+    setting.chain = entry.string("chain", "exact");
+    if (setting.chain != "exact" && setting.chain != "published")
+        entry.member("chain").fail("must be exact or published");
     return setting;
 }
 
@@ -107,6 +111,7 @@ const std::vector<SettingField>& settingFields() {
         {"area_samples", [](const Setting& s) { return textOf(s.areaSamples, 0); }},
         {"environment_samples", [](const Setting& s) { return textOf(s.environmentSamples, -1); }},
         {"merge", [](const Setting& s) { return s.merge; }},
+        {"chain", [](const Setting& s) { return s.chain; }},
         {"lights", [](const Setting& s) { return textOf(s.lights, 0); }},
         {"characters", [](const Setting& s) { return textOf(s.characters, 0); }},
     };
@@ -156,6 +161,7 @@ void applySetting(const Setting& setting, Scene& scene, Rig& rig, RenderSettings
     quality.gaussians = setting.gaussians;
     quality.lightMapSize = setting.lightMapSize;
     quality.merge = setting.merge == "opposite" ? Merge::opposite : Merge::min;
+    quality.chain = setting.chain == "published" ? Chain::published : Chain::exact;
     for (Light& light : rig.lights) {
         const bool area = light.type == LightType::rect || light.radius > 0;
         if (area && setting.areaSamples > 0) light.samples = setting.areaSamples;

@@ -19,7 +19,8 @@ struct Setting {
     int lightMapSize = 0;         // texels along each side
     int areaSamples = 0;          // light samples of each area light
     int environmentSamples = -1;  // directions of the environment that cast shadows; -1: the rig's
-    std::string merge = "min";
+    std::string merge = "min";    // or "opposite"
+    std::string chain = "exact";  // or "published"
     int lights = 0;      // the rig's lights repeated, turned about the subject, until there are so many
     int characters = 0;  // the scene's characters repeated, side by side, until there are so many
     bool operator==(const Setting&) const = default;

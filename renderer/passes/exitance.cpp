@@ -12,7 +12,8 @@ struct ExitancePush {
 }  // namespace
 
 void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
-                    const SurfaceImages& surface, const AtlasTiles& tiles, SkinLight& light) {
+                    const SurfaceImages& surface, const AtlasTiles& tiles, ThicknessStorage storage,
+                    SkinLight& light) {
     const auto size = static_cast<std::uint32_t>(surface.size);
     light.exitance = gpu::Image(
         device, {.name = "exitance", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
@@ -28,7 +29,10 @@ void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuf
     }
     // Whatever is not seen must read as uncovered.
     commands.clear(light.exitance);
-    const gpu::Program& program = device.program(entry ? "exitance.comp+TRANSLUCENCY" : "exitance.comp");
+    const gpu::Program& program =
+        device.program(!entry                               ? "exitance.comp"
+                       : storage == ThicknessStorage::bytes ? "exitance.comp+TRANSLUCENCY+BYTE_THICKNESS"
+                                                            : "exitance.comp+TRANSLUCENCY");
     dispatchTiles(commands, program, bindings, ExitancePush{}, tiles, tiles.seen());
 }
 

@@ -9,7 +9,8 @@
 namespace cutis::test {
 namespace {
 
-const std::vector<std::vector<std::string>> kCommands = {{"render"}, {"reference"},       {"compare"}, {"measure"}, {"rig", "list"},   {"rig", "show"},
+const std::vector<std::vector<std::string>> kCommands = {{"render"},       {"reference"},     {"compare"},
+                                                         {"measure"},      {"rig", "list"},   {"rig", "show"},
                                                          {"rig", "check"}, {"rig", "export"}, {"devices"}};
 
 std::string joined(const std::vector<std::string>& words) {
@@ -56,10 +57,9 @@ TEST(Help, WinsOverOtherMistakes) {
 
 TEST(Help, RenderHasEveryOption) {
     const std::set<std::string> expected = {
-        "--rig",       "--light",    "--env",    "--env-intensity", "--env-rotation",
-        "--camera",    "--size",     "--skin",   "--merge",         "--irradiance-size",
-        "--gaussians", "--device",   "--aov",    "--stats",         "--seed",
-        "--exposure",  "--no-prune", "--output", "--help"};
+        "--rig",   "--light", "--env",      "--env-intensity",   "--env-rotation", "--camera", "--size",
+        "--skin",  "--merge", "--chain",    "--irradiance-size", "--gaussians",    "--device", "--aov",
+        "--stats", "--seed",  "--exposure", "--no-prune",        "--output",       "--help"};
     EXPECT_EQ(optionsIn(runCutis({"render", "--help"}).out), expected);
 }
 

@@ -71,6 +71,7 @@ TEST(Usage, WrongOptionsOfRender) {
         {{"--irradiance-size", "0"}, {"--irradiance-size is '0'"}},
         {{"--irradiance-size", "1000000"}, {"--irradiance-size"}},
         {{"--merge", "max"}, {"--merge is 'max'"}},
+        {{"--chain", "printed"}, {"--chain is 'printed'"}},
         {{"--seed", "-1"}, {"--seed is '-1'"}},
         {{"--seed", "4294967296"}, {"--seed"}},
         {{"--aov", "normals"}, {"--aov", "'normals'", "did you mean 'normal'?"}},

@@ -65,6 +65,7 @@ TEST_F(SweepFile, IsReadAndChecked) {
     says(R"({"cutis_sweep":1,"settings":[{"name":"a","gaussians":0}]})", "settings[0].gaussians");
     says(R"({"cutis_sweep":1,"settings":[{"name":"a"},{"name":"a"}]})", "settings[1].name");
     says(R"({"cutis_sweep":1,"settings":[{"name":"a","merge":"max"}]})", "settings[0].merge");
+    says(R"({"cutis_sweep":1,"settings":[{"name":"a","chain":"printed"}]})", "settings[0].chain");
 }
 
 TEST(Settings, ChangeQualityAndAreaLightsAlone) {

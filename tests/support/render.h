@@ -54,6 +54,7 @@ struct RenderJob {
     std::vector<std::string> aovs = {};
     bool prune = true;
     std::string merge = {};  // as --merge takes it; empty: the default
+    std::string chain = {};  // as --chain takes it; empty: the default
 };
 
 // What `--stats` says (DESIGN §2.1); reading it fails when one of its keys is missing.
