@@ -22,9 +22,27 @@ std::uint64_t rowBytes(const ImageView& view) {
 
 }  // namespace
 
+namespace {
+
+// A GPU may run copies and clears of images on its raster units, of which a data-centre GPU has few: 58 GB/s were
+// measured on an H200, 2 % of what compute writes there.
+bool clearsByCompute(const ImageView& image) {
+    const ImageObject& object = *image.object();
+    return (object.desc.usage & VK_IMAGE_USAGE_STORAGE_BIT) && object.format.kind == TexelKind::real && !object.format.depth &&
+           !object.desc.cube && image.mipCount() == 1;
+}
+
+}  // namespace
+
 void Commands::clear(const ImageView& image, const ClearValue& value) {
     impl_->requireNoRendering("clear");
     if (!image) throw std::logic_error("clear of no image");
+    if (clearsByCompute(image)) {
+        const Program& program = impl_->device.program("clear.comp");
+        dispatch(program, {{"target", image}}, value.value.color.float32,
+                 groupsFor(program, image.width(), image.height(), image.layerCount()));
+        return;
+    }
     impl_->naming([&] { impl_->useForTransfer(image, true); });
     const VkCommandBuffer commands = impl_->resources.commands;
     impl_->barriers.record(commands);

@@ -1,0 +1,27 @@
+// What each part of `speed` prints: Markdown tables of medians, least and largest times.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/frame/renderer.h"
+
+namespace cutis::speed {
+
+struct Spread {
+    double median = 0, least = 0, most = 0;  // ms
+};
+// Of all values but the first quarter, which warms up.
+Spread spreadOf(std::vector<double> values);
+std::string toText(const Spread& spread);
+
+// The repeated times of one row of the pass table; of all rows when the name is empty.
+Spread timeOf(const RenderStats& stats, const std::string& pass);
+
+// Diffusion of a fully covered atlas against what the device takes to copy its irradiance texture.
+void printDiffusion(gpu::Device& device, int repeats);
+
+// What one more light costs, against a light map and its share of irradiance measured alone.
+void printLights(gpu::Device& device, int repeats);
+
+}  // namespace cutis::speed
