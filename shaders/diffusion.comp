@@ -13,8 +13,11 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+layout(constant_id = 0) const uint SHIFT = 0;  // the level's resolution is 1/2^SHIFT of the atlas'
+layout(constant_id = 1) const uint FINER = 1;  // what it is made from had so many times that
+
 layout(binding = 0) uniform texture2D source;   // rgb; a: island, 0 where uncovered
-layout(binding = 1) uniform texture2D stretch;  // a, b, c in texels per millimetre; w: island
+layout(binding = 1) uniform texture2D stretch;  // a, b, c in texels of this level per millimetre; w: island
 layout(binding = 2, rgba32f) writeonly uniform image2D target;
 
 layout(binding = 3, scalar) readonly buffer GaussianBuffer { GaussianTerm gaussians[]; };
@@ -87,11 +90,11 @@ void addTap(ivec2 at, float weight, float island) {
 void main() {
     ivec2 texel;
     uint tile;
-    if (!tileTexel(texel, tile)) return;
+    if (!tileBlock(SHIFT, texel, tile)) return;
     AtlasChart chart = TILE_CHART;
     if (push.level >= chart.gaussianCount) return;
-    chartLow = ivec2(chart.rect.xy);
-    chartHigh = chartLow + ivec2(chart.rect.zw);
+    chartLow = ivec2(chart.rect.xy >> SHIFT);
+    chartHigh = ivec2((chart.rect.xy + chart.rect.zw + (1u << SHIFT) - 1u) >> SHIFT);
     float previous = push.level > 0u ? gaussians[chart.firstGaussian + push.level - 1u].variance : 0.0;  // v_{k-1}, mm²
     float variance = gaussians[chart.firstGaussian + push.level].variance - previous;
     vec4 factor = texelFetch(stretch, texel, 0);
@@ -101,10 +104,8 @@ void main() {
     }
     // Covariance of the Gaussian in texels, per mm²: (JᵀJ)⁻¹ = L·Lᵀ.
     vec3 perMm = vec3(factor.x * factor.x, factor.x * factor.y, factor.y * factor.y + factor.z * factor.z);
-    // Whoever looks a level up between texels adds kLookupVariance to it along u and v. So that what is seen has the
-    // variance v_k, the texture is taken to that much less, and is left as it is while v_k is below it.
-    vec2 before = max(previous * perMm.xz - kLookupVariance, 0.0);
-    vec2 after = max((previous + variance) * perMm.xz - kLookupVariance, 0.0);
+    vec2 before, after;
+    levelVariance(perMm.xz, previous, previous + variance, float(FINER), before, after);
     vec2 added = after - before;
     float mixed = perMm.y * variance;
     mixed = clamp(mixed, -sqrt(added.x * added.y), sqrt(added.x * added.y));

@@ -1,6 +1,6 @@
 #version 460
 // Adds the tiles that one direction of one blur reads (axis 1: diffusion.comp's second column, axis 0: its first), or
-// all neighbours (axis 2), of the tiles needed so far.
+// those within a texel of 1/2^shift of the resolution (axis 2), of the tiles needed so far.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/atlas_tiles.h"
@@ -18,6 +18,7 @@ layout(push_constant, scalar) uniform Push {
     uint step;  // what is added is needed at this one
     uint level;
     uint axis;
+    uint shift, finerShift;  // the level's resolution is 1/2^shift of the atlas'; that of what it is made from
 } push;
 
 #include "lib/blur_reach.glsl"
@@ -27,13 +28,14 @@ void main() {
     if (tile >= push.tileCount || states[tile].step >= push.step) return;
     AtlasTileState state = states[tile];
     AtlasChart chart = atlasCharts[atlasTiles[tile].chart];
-    ivec2 reach = ivec2(1);
+    ivec2 reach = ivec2(1 << push.shift);
     if (push.axis < 2u) {
         if (push.level >= chart.gaussianCount) return;
         float variance = gaussians[chart.firstGaussian + push.level].variance;
         float previous = push.level > 0u ? gaussians[chart.firstGaussian + push.level - 1u].variance : 0.0;
         vec3 perMm = vec3(uintBitsToFloat(state.perMmU), uintBitsToFloat(state.perMmV), uintBitsToFloat(state.perMmMixed));
-        reach = blurReach(perMm, variance - previous, previous, push.axis);
+        perMm /= float(1u << 2u * push.shift);
+        reach = blurReach(perMm, previous, variance, float(1u << push.shift - push.finerShift), push.axis) << int(push.shift);
     }
     ivec2 corner = ivec2(atlasTiles[tile].corner), edge = corner + int(ATLAS_TILE) - 1;
     ivec2 first = ivec2(chart.firstCell), last = first + ivec2(chart.cells) - 1;

@@ -25,6 +25,9 @@ void main() {
         uint begin = end;
         end += counts[step];
         counts[step] = begin;
-        tileDispatches[step] = TileDispatch(groupsOf(end), groupsOf((end + 3u) / 4u), end);
+        for (uint shift = 0u; shift <= COARSEST_LEVEL; ++shift) {
+            tileDispatches[step].groups[shift] = groupsOf((end + (1u << 2u * shift) - 1u) >> 2u * shift);
+        }
+        tileDispatches[step].tiles = end;
     }
 }

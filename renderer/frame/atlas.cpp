@@ -11,27 +11,35 @@
 #include <unordered_map>
 
 #include "renderer/core/error.h"
+#include "shaders/shared/atlas_tiles.h"
 
 namespace cutis {
 namespace {
 
 // Border triangles spread a texel beyond their chart; two more keep neighbours out of bilinear lookups.
 constexpr int kGutter = 3;
+// Rectangles, gutters included, begin and end on a grid of this many texels: each texel of a diffusion level of lower
+// resolution then belongs to one chart.
+constexpr int kGrid = 1 << shared::COARSEST_LEVEL;
 
 double mmPerUnitOf(const Scene& scene, int material) {
     return scene.materials[material].skin->mmPerUnit;
 }
 
-// The value below which half of the weight lies; sorts the list.
-double weightedMedian(std::vector<std::pair<double, double>>& valuesAndWeights) {
+// The value below which this share of the weight lies; sorts the list.
+double weightedQuantile(std::vector<std::pair<double, double>>& valuesAndWeights, double share) {
     std::sort(valuesAndWeights.begin(), valuesAndWeights.end());
     double total = 0, seen = 0;
     for (const auto& [value, weight] : valuesAndWeights) total += weight;
     for (const auto& [value, weight] : valuesAndWeights) {
         seen += weight;
-        if (seen >= 0.5 * total) return value;
+        if (seen >= share * total) return value;
     }
     return 0;
+}
+
+double weightedMedian(std::vector<std::pair<double, double>>& valuesAndWeights) {
+    return weightedQuantile(valuesAndWeights, 0.5);
 }
 
 // Lengths of the surface along u and v, in mm per unit of uv, on average over a chart's triangles.
@@ -98,22 +106,27 @@ std::vector<AtlasChart> collectCharts(const Scene& scene, Geometry& geometry) {
 // Gives every chart its rectangle at `scale(chart)` texels a millimetre; false when they do not fit.
 template <class Scale>
 bool pack(std::vector<AtlasChart>& charts, int size, Scale scale) {
+    const int cells = size / kGrid;
+    if (cells == 0) return false;
     std::vector<stbrp_rect> rects;
+    std::vector<glm::ivec2> sizes;
     for (std::size_t i = 0; i < charts.size(); ++i) {
         const glm::dvec2 texels = charts[i].sizeMm * scale(charts[i]);
         if (!(texels.x < size) || !(texels.y < size)) return false;
+        sizes.push_back(glm::max(glm::ivec2(glm::ceil(texels)), 1));
+        const glm::ivec2 taken = (sizes[i] + 2 * kGutter + kGrid - 1) / kGrid;
         stbrp_rect rect{};
         rect.id = static_cast<int>(i);
-        rect.w = std::max(1, static_cast<int>(std::ceil(texels.x))) + 2 * kGutter;
-        rect.h = std::max(1, static_cast<int>(std::ceil(texels.y))) + 2 * kGutter;
+        rect.w = taken.x;
+        rect.h = taken.y;
         rects.push_back(rect);
     }
     stbrp_context context;
-    std::vector<stbrp_node> nodes(static_cast<std::size_t>(size));
-    stbrp_init_target(&context, size, size, nodes.data(), size);
+    std::vector<stbrp_node> nodes(static_cast<std::size_t>(cells));
+    stbrp_init_target(&context, cells, cells, nodes.data(), cells);
     if (!stbrp_pack_rects(&context, rects.data(), static_cast<int>(rects.size()))) return false;
     for (const stbrp_rect& rect : rects) {
-        charts[rect.id].rect = {rect.x + kGutter, rect.y + kGutter, rect.w - 2 * kGutter, rect.h - 2 * kGutter};
+        charts[rect.id].rect = {rect.x * kGrid + kGutter, rect.y * kGrid + kGutter, sizes[rect.id].x, sizes[rect.id].y};
     }
     return true;
 }
@@ -218,11 +231,12 @@ void findIslandsAndBorders(const Geometry& geometry, const std::vector<std::uint
     }
 }
 
-// G = JᵀJ at every vertex, the mean of its triangles' by their area in the atlas; and the median size of a texel.
+// G = JᵀJ at every vertex, the mean of its triangles' by their area in the atlas; and sizes of texels.
 void computeMetric(const Scene& scene, const Geometry& geometry, const std::vector<std::uint32_t>& weld, Atlas& atlas) {
     std::vector<glm::dvec4> sums(weld.size(), glm::dvec4(0));
     std::vector<std::pair<double, double>> texelSizes;  // size in mm, texels of that size
     texelSizes.reserve(geometry.skinTriangleCount);
+    std::vector<std::vector<std::pair<double, double>>> longestSides(atlas.charts.size());  // the same of each chart
     for (std::size_t t = 0; t < geometry.skinTriangleCount; ++t) {
         const std::uint32_t* v = &geometry.indices[t * 3];
         const double mmPerUnit = mmPerUnitOf(scene, geometry.draws[geometry.triangleDraws[t]].material);
@@ -238,6 +252,11 @@ void computeMetric(const Scene& scene, const Geometry& geometry, const std::vect
         const double texels = 0.5 * std::abs(det);
         for (int i = 0; i < 3; ++i) sums[weld[v[i]]] += glm::dvec4(g * texels, texels);
         texelSizes.emplace_back(std::pow(std::max(g.x * g.z - g.y * g.y, 0.0), 0.25), texels);
+        const double longest = 0.5 * (g.x + g.z) + std::hypot(0.5 * (g.x - g.z), g.y);  // eigenvalue
+        longestSides[geometry.drawInfos[geometry.triangleDraws[t]].chart].emplace_back(std::sqrt(longest), texels);
+    }
+    for (std::size_t c = 0; c < atlas.charts.size(); ++c) {
+        atlas.charts[c].coarsestMm = weightedQuantile(longestSides[c], 0.95);
     }
     for (std::size_t v = 0; v < weld.size(); ++v) {
         const glm::dvec4 sum = sums[weld[v]];

@@ -102,8 +102,9 @@ void lightMapsRow(FrameContext& frame) {
 }
 
 void surfaceRow(FrameContext& frame) {
+    const bool reduced = frame.settings->reducedLevels && frame.settings->chain == Chain::exact;
     frame.surface = recordSurface(*frame.device, *frame.commands, frame.scene.buffers, frame.scene.charts,
-                                  frame.atlas.size, frame.tiles);
+                                  frame.atlas.size, levelShifts(frame.scene.charts, reduced), frame.tiles);
 }
 
 // Calls body(tile) for the parts of the picture, with room for one of them in frame.viewTile.

@@ -30,6 +30,7 @@ struct RenderSettings {
     int lightMapSize = 0;    // texels along each side of a light map; 0: chosen from the picture
     Merge merge = Merge::min;
     Chain chain = Chain::exact;
+    bool reducedLevels = true;  // wide Gaussians are blurred at the lower resolution that their width allows
     int repeats = 1;    // the frame is drawn so often, for its times alone
     bool prune = true;  // false: run also what could be left out, on neutral inputs
     std::uint32_t seed = 0;

@@ -149,6 +149,7 @@ void uploadCharts(gpu::Device& device, gpu::Commands& commands, const Scene& sce
         range.firstGaussian = static_cast<std::uint32_t>(terms.size());
         range.profile = profile;
         range.mmPerUnit = static_cast<float>(material.mmPerUnit);
+        range.coarsestMm = chart.coarsestMm;
         range.receiverGroup = static_cast<std::uint32_t>(chart.character);
         for (const skin::Gaussian& g : profile.gaussians) {
             terms.push_back({glm::vec3(g.weight), static_cast<float>(g.variance)});

@@ -5,11 +5,10 @@
 namespace cutis {
 namespace {
 
-// Neighbours are all that bilinear lookups of probes reach.
 constexpr std::uint32_t kNeighbours = 2;
 
 struct GrowPush {
-    std::uint32_t tileCount, step, level, axis;
+    std::uint32_t tileCount, step, level, axis, shift, finerShift;
 };
 
 void grow(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene, const AtlasTiles& tiles,
@@ -50,8 +49,9 @@ void listTiles(gpu::Device& device, gpu::Commands& commands, const AtlasTiles& t
 }  // namespace
 
 AtlasTiles recordCoveredTiles(gpu::Device& device, gpu::Commands& commands, const gpu::Image& triangles,
-                              std::span<const ChartRange> ranges) {
+                              std::span<const ChartRange> ranges, std::vector<std::uint32_t> shifts) {
     AtlasTiles result;
+    result.shifts = std::move(shifts);
     std::vector<shared::AtlasChart> charts;
     std::vector<shared::AtlasTile> tiles;
     for (const ChartRange& range : ranges) {
@@ -64,7 +64,6 @@ AtlasTiles recordCoveredTiles(gpu::Device& device, gpu::Commands& commands, cons
         chart.firstGaussian = range.firstGaussian;
         chart.gaussianCount = static_cast<std::uint32_t>(range.profile.gaussians.size());
         chart.mmPerUnit = range.mmPerUnit;
-        result.levels = std::max(result.levels, chart.gaussianCount);
         for (std::uint32_t y = 0; y < chart.cells.y; ++y) {
             for (std::uint32_t x = 0; x < chart.cells.x; ++x) {
                 tiles.push_back({(chart.firstCell + glm::uvec2(x, y)) * shared::ATLAS_TILE,
@@ -118,11 +117,16 @@ void recordSeenTiles(gpu::Device& device, gpu::Commands& commands, const SceneBu
 
 void recordNeededTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                        AtlasTiles& tiles) {
-    for (std::uint32_t level = tiles.levels; level-- > 0;) {
-        grow(device, commands, scene, tiles, {tiles.count, tiles.scratch(level), level, 1});
-        grow(device, commands, scene, tiles, {tiles.count, tiles.scratch(level) + 1, level, 0});
+    const std::uint32_t coarsest = tiles.shifts.empty() ? 0 : tiles.shifts.back();
+    if (coarsest > 0)
+        grow(device, commands, scene, tiles, {tiles.count, tiles.lookups(), 0, kNeighbours, coarsest, 0});
+    for (std::uint32_t level = tiles.levels(); level-- > 0;) {
+        const std::uint32_t shift = tiles.shifts[level], finer = tiles.finerShift(level);
+        grow(device, commands, scene, tiles, {tiles.count, tiles.scratch(level), level, 1, shift, finer});
+        grow(device, commands, scene, tiles, {tiles.count, tiles.scratch(level) + 1, level, 0, shift, finer});
     }
-    grow(device, commands, scene, tiles, {tiles.count, tiles.probes(), 0, kNeighbours});
+    // Neighbours are all that bilinear lookups of probes reach.
+    grow(device, commands, scene, tiles, {tiles.count, tiles.probes(), 0, kNeighbours, 0, 0});
     listTiles(device, commands, tiles);
 }
 
@@ -138,12 +142,9 @@ shared::TilePush tilePush(const AtlasTiles& tiles, std::uint32_t chart, std::uin
     return {chart, chart * tiles.steps() + step, tiles.receiverGroups[chart]};
 }
 
-std::uint64_t tileGroups(const shared::TilePush& push) {
-    return push.dispatch * sizeof(shared::TileDispatch) + offsetof(shared::TileDispatch, groups);
-}
-
-std::uint64_t tileProbeGroups(const shared::TilePush& push) {
-    return push.dispatch * sizeof(shared::TileDispatch) + offsetof(shared::TileDispatch, probeGroups);
+std::uint64_t tileGroups(const shared::TilePush& push, std::uint32_t shift) {
+    return push.dispatch * sizeof(shared::TileDispatch) + offsetof(shared::TileDispatch, groups) +
+           shift * sizeof(glm::uvec3);
 }
 
 CoveredTexels coveredTexels(const gpu::Readback& counts) {

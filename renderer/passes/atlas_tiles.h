@@ -6,6 +6,7 @@
 //
 //     seen       pixels look the skin up there                             thickness, exitance
 //     entries    light that shines through what is seen enters there
+//     lookups    levels are looked up there, between texels of the coarsest one
 //     level(k)   a texel of one of these reads level k there               second direction of blur k
 //     scratch(k) likewise what stands between its two directions           first direction of blur k
 //     lit        likewise what level 0 is made from                        irradiance
@@ -27,20 +28,25 @@ struct AtlasTiles {
     gpu::Buffer list, counts, dispatches;
     std::vector<std::uint32_t> receiverGroups;  // a chart
     std::uint32_t count = 0;                    // of tiles, needed or not
-    std::uint32_t levels = 0;                   // of diffusion
+    std::vector<std::uint32_t> shifts;  // of each level of diffusion: its side is the atlas' / 2^shift
 
     std::uint32_t seen() const { return 0; }
     std::uint32_t entries() const { return 1; }
-    std::uint32_t level(std::uint32_t k) const { return 1 + 2 * (levels - 1 - k); }  // k from 0
+    std::uint32_t lookups() const { return 2; }
+    std::uint32_t level(std::uint32_t k) const { return 2 + 2 * (levels() - 1 - k); }  // k from 0
     std::uint32_t scratch(std::uint32_t k) const { return level(k) + 1; }
-    std::uint32_t lit() const { return 1 + 2 * levels; }
+    std::uint32_t lit() const { return 2 + 2 * levels(); }
     std::uint32_t probes() const { return lit() + 1; }
     std::uint32_t steps() const { return probes() + 1; }
+    std::uint32_t levels() const { return static_cast<std::uint32_t>(shifts.size()); }
+    // Of what level k is made from.
+    std::uint32_t finerShift(std::uint32_t k) const { return k > 0 ? shifts[k - 1] : 0; }
 };
 
-// Finds the tiles that hold any of `triangles` (triangle + 1, 0: none), and lists them as seen.
+// Finds the tiles that hold any of `triangles` (triangle + 1, 0: none), and lists them as seen. shifts: of
+// each level.
 AtlasTiles recordCoveredTiles(gpu::Device& device, gpu::Commands& commands, const gpu::Image& triangles,
-                              std::span<const ChartRange> charts);
+                              std::span<const ChartRange> charts, std::vector<std::uint32_t> shifts);
 
 // Makes seen only the tiles in which the marked ones (1) of the skin's first triangles lie.
 void recordSeenTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
@@ -55,18 +61,17 @@ gpu::Bindings withTiles(gpu::Bindings bindings, const AtlasTiles& tiles);
 
 // What to push, and where the group counts lie, for the tiles of one chart needed up to `step`.
 shared::TilePush tilePush(const AtlasTiles& tiles, std::uint32_t chart, std::uint32_t step);
-std::uint64_t tileGroups(const shared::TilePush& push);
-std::uint64_t tileProbeGroups(const shared::TilePush& push);  // four tiles a group
+std::uint64_t tileGroups(const shared::TilePush& push, std::uint32_t shift = 0);  // 4^shift tiles a group
 
-// A pass with a work group for each tile needed up to `step`, chart by chart. Push begins with `TilePush
-// tiles`, which is filled in.
+// A pass over the tiles needed up to `step`, chart by chart, with a work group for 64 texels of 1/2^shift of
+// the atlas' resolution. Push begins with `TilePush tiles`, which is filled in.
 template <class Push>
 void dispatchTiles(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
-                   Push push, const AtlasTiles& tiles, std::uint32_t step) {
+                   Push push, const AtlasTiles& tiles, std::uint32_t step, std::uint32_t shift = 0) {
     const gpu::Bindings all = withTiles(bindings, tiles);
     for (std::uint32_t chart = 0; chart < tiles.receiverGroups.size(); ++chart) {
         push.tiles = tilePush(tiles, chart, step);
-        commands.dispatchIndirect(program, all, push, tiles.dispatches, tileGroups(push.tiles));
+        commands.dispatchIndirect(program, all, push, tiles.dispatches, tileGroups(push.tiles, shift));
     }
 }
 

@@ -1,9 +1,14 @@
 #include "renderer/passes/diffusion.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "renderer/gpu/device.h"
 
 namespace cutis {
 namespace {
+
+constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 struct BlurPush {
     shared::TilePush tiles;
@@ -11,37 +16,96 @@ struct BlurPush {
     int axis;
 };
 
+struct ReducePush {
+    shared::TilePush tiles;
+};
+
+gpu::Image coarseImage(gpu::Device& device, const char* name, int atlasSize, std::uint32_t shift,
+                       std::uint32_t layers = 1) {
+    const auto size = (static_cast<std::uint32_t>(atlasSize) + (1u << shift) - 1) >> shift;
+    return gpu::Image(device,
+                      {.name = name, .format = kFormat, .width = size, .height = size, .layers = layers});
+}
+
 }  // namespace
+
+std::vector<std::uint32_t> levelShifts(std::span<const ChartRange> charts, bool reduced) {
+    std::vector<std::uint32_t> shifts;
+    for (const ChartRange& chart : charts) {
+        const std::vector<skin::Gaussian>& gaussians = chart.profile.gaussians;
+        for (std::size_t k = 0; k < gaussians.size(); ++k) {
+            if (k == shifts.size()) shifts.push_back(reduced ? kCoarseLevels : 0);
+            const double texels = std::sqrt(gaussians[k].variance) / std::max(chart.coarsestMm, 1e-30);
+            const double most = std::floor(std::log2(std::max(texels / kSmoothTexels, 1.0)));
+            shifts[k] = static_cast<std::uint32_t>(std::min<double>(shifts[k], most));
+        }
+    }
+    // The chain runs from fine to coarse, also where profiles differ.
+    for (std::size_t k = shifts.size(); k-- > 1;) shifts[k - 1] = std::min(shifts[k - 1], shifts[k]);
+    return shifts;
+}
+
+void recordCoarseStretch(gpu::Device& device, gpu::Commands& commands, const AtlasTiles& tiles,
+                         SurfaceImages& surface) {
+    for (std::uint32_t shift = 1; shift <= kCoarseLevels; ++shift) {
+        if (std::find(tiles.shifts.begin(), tiles.shifts.end(), shift) == tiles.shifts.end()) continue;
+        gpu::Image& coarse = surface.coarseStretch[shift - 1];
+        coarse = coarseImage(device, "coarse stretch", surface.size, shift);
+        commands.clear(coarse);
+        dispatchTiles(
+            commands, device.program("diffusion_reduce.comp+STRETCH", {{0, shift}, {1, 1u << shift}}),
+            {{"source", surface.stretch}, {"target", coarse}}, ReducePush{}, tiles, tiles.seen(), shift);
+    }
+}
+
+DiffusionLevels makeLevels(gpu::Device& device, gpu::Commands& commands, int atlasSize,
+                           const AtlasTiles& tiles) {
+    DiffusionLevels levels;
+    levels.shifts = tiles.shifts;
+    for (std::uint32_t shift = 0; shift <= kCoarseLevels; ++shift) {
+        const auto count =
+            static_cast<std::uint32_t>(std::count(tiles.shifts.begin(), tiles.shifts.end(), shift));
+        if (count == 0) continue;
+        levels.images[shift] = coarseImage(device, "diffusion levels", atlasSize, shift, count);
+        // Texels without surface are read wherever they are, and must say so.
+        commands.clear(levels.images[shift]);
+    }
+    return levels;
+}
 
 void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                      const SurfaceImages& surface, const AtlasTiles& tiles, SkinLight& light) {
-    const auto size = static_cast<std::uint32_t>(surface.size);
-    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    light.levels = gpu::Image(device, {.name = "diffusion levels",
-                                       .format = format,
-                                       .width = size,
-                                       .height = size,
-                                       .layers = tiles.levels});
-    light.scratch =
-        gpu::Image(device, {.name = "diffusion scratch", .format = format, .width = size, .height = size});
-    // Texels without surface are read wherever they are, and must say so.
-    commands.clear(light.levels);
-    commands.clear(light.scratch);
-    const gpu::Program& program = device.program("diffusion.comp");
+    light.levels = makeLevels(device, commands, surface.size, tiles);
+    gpu::Image scratch, reduced;
+    std::uint32_t scratchShift = ~0u;
     // Level by level over all charts, so that one barrier serves them all.
-    for (std::uint32_t level = 0; level < tiles.levels; ++level) {
+    for (std::uint32_t level = 0; level < tiles.levels(); ++level) {
+        const std::uint32_t shift = tiles.shifts[level], finer = 1u << (shift - tiles.finerShift(level));
+        const gpu::Image& stretch = shift == 0 ? surface.stretch : surface.coarseStretch[shift - 1];
+        gpu::ImageView source = level > 0 ? light.levels.view(level - 1) : light.irradiance.view();
+        if (shift != scratchShift) {
+            scratch = coarseImage(device, "diffusion scratch", surface.size, shift);
+            commands.clear(scratch);
+            scratchShift = shift;
+        }
+        if (finer > 1) {
+            reduced = coarseImage(device, "reduced level", surface.size, shift);
+            commands.clear(reduced);
+            dispatchTiles(commands, device.program("diffusion_reduce.comp", {{0, shift}, {1, finer}}),
+                          {{"source", source}, {"target", reduced}, {"stretch", stretch}}, ReducePush{},
+                          tiles, tiles.scratch(level) + 1, shift);
+            source = reduced.view();
+        }
+        const gpu::Program& program = device.program("diffusion.comp", {{0, shift}, {1, finer}});
+        const gpu::ImageView steps[] = {source, scratch.view(), light.levels.view(level)};
         for (int axis = 0; axis < 2; ++axis) {
-            const gpu::ImageView source = axis == 1   ? light.scratch.view()
-                                          : level > 0 ? light.levels.layer(level - 1)
-                                                      : light.irradiance.view();
-            const gpu::ImageView target = axis == 0 ? light.scratch.view() : light.levels.layer(level);
-            const std::uint32_t step = axis == 0 ? tiles.scratch(level) : tiles.level(level);
             dispatchTiles(commands, program,
-                          {{"source", source},
-                           {"stretch", surface.stretch},
-                           {"target", target},
+                          {{"source", steps[axis]},
+                           {"stretch", stretch},
+                           {"target", steps[axis + 1]},
                            {"GaussianBuffer", scene.gaussians}},
-                          BlurPush{{}, level, axis}, tiles, step);
+                          BlurPush{{}, level, axis}, tiles,
+                          axis == 0 ? tiles.scratch(level) : tiles.level(level), shift);
         }
     }
 }

@@ -1,15 +1,30 @@
 // Diffusion: the chain of separable Gaussian blurs over the atlas, once however many lights (DESIGN §1.4).
-// Shader: diffusion.comp.
+// Shaders: diffusion.comp, diffusion_reduce.comp.
 #pragma once
+
+#include <span>
 
 #include "renderer/passes/atlas_tiles.h"
 #include "renderer/passes/resources.h"
 
 namespace cutis {
 
-// Makes and fills light.levels: layer k holds the irradiance blurred to variance v_k of each chart's own
+// The resolution of each level of diffusion, 1/2^shift of the atlas': the lowest at which its Gaussian still
+// has a standard deviation of kSmoothTexels, on every chart, but for the largest 5 % of texels.
+std::vector<std::uint32_t> levelShifts(std::span<const ChartRange> charts, bool reduced);
+inline constexpr double kSmoothTexels = 1.5;
+
+// Makes surface.coarseStretch for the resolutions of these tiles' levels.
+void recordCoarseStretch(gpu::Device& device, gpu::Commands& commands, const AtlasTiles& tiles,
+                         SurfaceImages& surface);
+
+// Makes and fills light.levels: level k holds the irradiance blurred to variance v_k of each chart's own
 // profile.
 void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                      const SurfaceImages& surface, const AtlasTiles& tiles, SkinLight& light);
+
+// The empty levels of `tiles`.
+DiffusionLevels makeLevels(gpu::Device& device, gpu::Commands& commands, int atlasSize,
+                           const AtlasTiles& tiles);
 
 }  // namespace cutis

@@ -103,7 +103,7 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
                     if (!hasMaps(input.tiles->receiverGroups[chart])) continue;
                     push.tiles = tilePush(*input.tiles, chart, input.tiles->probes());
                     commands.dispatchIndirect(device.program("environment_visibility.comp"), bindings, push,
-                                              input.tiles->dispatches, tileProbeGroups(push.tiles));
+                                              input.tiles->dispatches, tileGroups(push.tiles, 1));
                 }
             }
             const gpu::Program& program = device.program("environment_visibility.comp+VERTICES");
@@ -161,7 +161,7 @@ void recordEnvironmentOcclusion(gpu::Device& device, gpu::Commands& commands, co
             for (std::uint32_t chart = 0; chart < input.tiles->receiverGroups.size(); ++chart) {
                 push.tiles = tilePush(*input.tiles, chart, input.tiles->probes());
                 commands.dispatchIndirect(device.program("environment_occlusion.comp"), bindings, push,
-                                          input.tiles->dispatches, tileProbeGroups(push.tiles));
+                                          input.tiles->dispatches, tileGroups(push.tiles, 1));
             }
         }
     }

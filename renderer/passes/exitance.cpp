@@ -1,5 +1,7 @@
 #include "renderer/passes/exitance.h"
 
+#include <string>
+
 #include "renderer/gpu/device.h"
 
 namespace cutis {
@@ -7,6 +9,7 @@ namespace {
 
 struct ExitancePush {
     shared::TilePush tiles;
+    std::uint32_t firstHalf, firstQuarter;
 };
 
 }  // namespace
@@ -17,23 +20,28 @@ void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuf
     const auto size = static_cast<std::uint32_t>(surface.size);
     light.exitance = gpu::Image(
         device, {.name = "exitance", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
-    gpu::Bindings bindings{{"levels", bilinear(device, light.levels)},
-                           {"GaussianBuffer", scene.gaussians},
-                           {"exitance", light.exitance}};
+    gpu::Bindings bindings{
+        {"stretch", surface.stretch}, {"GaussianBuffer", scene.gaussians}, {"exitance", light.exitance}};
+    std::string shader = "exitance.comp";
     const gpu::Image& entry = light.entry ? light.entry : surface.opposite;
     if (entry) {
+        shader += "+TRANSLUCENCY";
+        if (storage == ThicknessStorage::bytes) shader += "+BYTE_THICKNESS";
         bindings.push_back({"entry", entry});
-        bindings.push_back({"stretch", surface.stretch});
         bindings.push_back({"position", surface.position});
         bindings.push_back({"normal", surface.normal});
     }
     // Whatever is not seen must read as uncovered.
     commands.clear(light.exitance);
-    const gpu::Program& program =
-        device.program(!entry                               ? "exitance.comp"
-                       : storage == ThicknessStorage::bytes ? "exitance.comp+TRANSLUCENCY+BYTE_THICKNESS"
-                                                            : "exitance.comp+TRANSLUCENCY");
-    dispatchTiles(commands, program, bindings, ExitancePush{}, tiles, tiles.seen());
+    constexpr const char* kNames[] = {"levels", "halfLevels", "quarterLevels"};
+    constexpr const char* kFeatures[] = {"+FULL", "+HALF", "+QUARTER"};
+    for (std::uint32_t shift = 0; shift <= kCoarseLevels; ++shift) {
+        if (!light.levels.images[shift]) continue;
+        shader += kFeatures[shift];
+        bindings.push_back({kNames[shift], light.levels.images[shift]});
+    }
+    dispatchTiles(commands, device.program(shader), bindings,
+                  ExitancePush{{}, light.levels.first(1), light.levels.first(2)}, tiles, tiles.seen());
 }
 
 }  // namespace cutis

@@ -1,6 +1,7 @@
 #include "renderer/passes/published_diffusion.h"
 
 #include "renderer/gpu/device.h"
+#include "renderer/passes/diffusion.h"
 
 namespace cutis {
 namespace {
@@ -17,23 +18,17 @@ void recordPublishedDiffusion(gpu::Device& device, gpu::Commands& commands, cons
                               const SurfaceImages& surface, const AtlasTiles& tiles, SkinLight& light) {
     const auto size = static_cast<std::uint32_t>(surface.size);
     const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    light.levels = gpu::Image(device, {.name = "diffusion levels",
-                                       .format = format,
-                                       .width = size,
-                                       .height = size,
-                                       .layers = tiles.levels});
-    light.scratch =
-        gpu::Image(device, {.name = "diffusion scratch", .format = format, .width = size, .height = size});
-    // Texels without surface are read wherever they are, and must say so.
-    commands.clear(light.levels);
-    commands.clear(light.scratch);
+    light.levels = makeLevels(device, commands, surface.size, tiles);
+    const gpu::Image scratch(device,
+                             {.name = "diffusion scratch", .format = format, .width = size, .height = size});
+    commands.clear(scratch);
     const gpu::Program& program = device.program("published_diffusion.comp");
-    for (std::uint32_t level = 0; level < tiles.levels; ++level) {
+    for (std::uint32_t level = 0; level < tiles.levels(); ++level) {
         for (int axis = 0; axis < 2; ++axis) {
-            const gpu::ImageView source = axis == 1   ? light.scratch.view()
-                                          : level > 0 ? light.levels.layer(level - 1)
+            const gpu::ImageView source = axis == 1   ? scratch.view()
+                                          : level > 0 ? light.levels.view(level - 1)
                                                       : light.irradiance.view();
-            const gpu::ImageView target = axis == 0 ? light.scratch.view() : light.levels.layer(level);
+            const gpu::ImageView target = axis == 0 ? scratch.view() : light.levels.view(level);
             dispatchTiles(commands, program,
                           {{"source", source},
                            {"stretch", surface.stretch},

@@ -1,6 +1,7 @@
 // What passes read and write: the resources of a frame, each with the pass that fills it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -10,21 +11,24 @@
 #include "renderer/gpu/image.h"
 #include "renderer/gpu/program.h"
 #include "renderer/skin/profile.h"
+#include "shaders/shared/atlas_tiles.h"
 #include "shaders/shared/scene.h"
 
 namespace cutis {
+
+inline constexpr std::uint32_t kCoarseLevels = shared::COARSEST_LEVEL;
 
 // A run of triangles drawn with one call.
 struct DrawRange {
     std::uint32_t firstIndex = 0, indexCount = 0;
     std::uint32_t firstProxyIndex = 0, proxyIndexCount = 0;  // a coarser form, for the sky's shadows
     std::uint32_t material = 0;
-    bool skin = false;              // takes light in
-    bool masked = false;            // its material's alpha cuts it out or lets light through
-    bool blended = false;           // seen through
+    bool skin = false;     // takes light in
+    bool masked = false;   // its material's alpha cuts it out or lets light through
+    bool blended = false;  // seen through
     bool doubleSided = false;
     std::uint32_t alphaGroup = 0xffffffffu;  // of material textures, that holds its alpha; all bits set: none
-    glm::vec3 boundsMin{0}, boundsMax{0};  // metres from the scene's origin
+    glm::vec3 boundsMin{0}, boundsMax{0};    // metres from the scene's origin
 };
 
 // The scene on the device, uploaded once (frame/upload.cpp).
@@ -37,7 +41,8 @@ struct SceneBuffers {
     std::vector<gpu::Image> textureArrays;
     std::vector<gpu::SampledImage> materialTextures;  // MAX_TEXTURE_GROUPS of them, or none
     std::vector<DrawRange> ranges;
-    std::uint32_t textureGroups = 0, textureSlots = 0;  // specialization constants 0 and 1 of what samples textures
+    std::uint32_t textureGroups = 0,
+                  textureSlots = 0;  // specialization constants 0 and 1 of what samples textures
     gpu::Specialization textureConstants() const { return {{0, textureGroups}, {1, textureSlots}}; }
     bool textured() const { return !materialTextures.empty(); }
 };
@@ -47,6 +52,7 @@ struct ChartRange {
     std::uint32_t firstGaussian = 0;
     skin::Profile profile;  // in mm², scaled and reduced as the frame uses it
     float mmPerUnit = 1000;
+    double coarsestMm = 0;  // longest side of a texel, but for the largest 5 % of them
     std::uint32_t receiverGroup = 0;
 };
 
@@ -54,6 +60,8 @@ struct ChartRange {
 struct SurfaceImages {
     int size = 0;
     gpu::Image triangles, position, normal, albedo, stretch;
+    std::array<gpu::Image, kCoarseLevels>
+        coarseStretch;    // at half and at a quarter of the resolution, where levels have it
     gpu::Image opposite;  // only when thickness comes from the shape alone
 };
 
@@ -90,14 +98,23 @@ struct EnvironmentVisibility {
 
 inline constexpr float kNoThickness = 60000;  // mm
 
+// The irradiance blurred to variance v_k, k from 0. Levels lie at full, half or a quarter of the atlas'
+// resolution, never finer than the one before.
+struct DiffusionLevels {
+    std::array<gpu::Image, kCoarseLevels + 1> images;  // by resolution; a layer a level
+    std::vector<std::uint32_t> shifts;                 // of each level: its side is the atlas' / 2^shift
+    std::uint32_t first(std::uint32_t shift) const;    // level that has at most this resolution
+    gpu::ImageView view(std::uint32_t level) const;
+};
+
 // Filled by recordThickness, recordIrradiance, recordDiffusion and recordExitance.
 struct SkinLight {
-    gpu::Image entry;       // place in the atlas in texels and thickness in mm; only when that comes from light maps
+    gpu::Image
+        entry;  // place in the atlas in texels and thickness in mm; only when that comes from light maps
     gpu::Image irradiance;  // E' and the island
     gpu::Image incident;    // E and the thickness
     gpu::Image visibility;  // a layer a light: share of it that arrives; only with shadows
-    gpu::Image levels;      // a layer for each Gaussian
-    gpu::Image scratch;     // between the two directions of a blur
+    DiffusionLevels levels;
     gpu::Image exitance;
 };
 

@@ -1,6 +1,7 @@
 #include "renderer/passes/surface.h"
 
 #include "renderer/gpu/device.h"
+#include "renderer/passes/diffusion.h"
 
 namespace cutis {
 namespace {
@@ -51,7 +52,8 @@ void recordOwners(gpu::Device& device, gpu::Commands& commands, const SceneBuffe
 }  // namespace
 
 SurfaceImages recordSurface(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
-                            std::span<const ChartRange> charts, int size, AtlasTiles& tiles) {
+                            std::span<const ChartRange> charts, int size,
+                            const std::vector<std::uint32_t>& levelShifts, AtlasTiles& tiles) {
     SurfaceImages images;
     images.size = size;
     images.triangles = atlasImage(device, "surface triangles", VK_FORMAT_R32_UINT, size);
@@ -60,7 +62,7 @@ SurfaceImages recordSurface(gpu::Device& device, gpu::Commands& commands, const 
     images.albedo = atlasImage(device, "surface albedo", VK_FORMAT_R16G16B16A16_SFLOAT, size);
     images.stretch = atlasImage(device, "surface stretch", VK_FORMAT_R32G32B32A32_SFLOAT, size);
     recordOwners(device, commands, scene, images);
-    tiles = recordCoveredTiles(device, commands, images.triangles, charts);
+    tiles = recordCoveredTiles(device, commands, images.triangles, charts, levelShifts);
     commands.clear(images.position);
 
     gpu::Bindings bindings{{"triangles", images.triangles},
@@ -81,6 +83,7 @@ SurfaceImages recordSurface(gpu::Device& device, gpu::Commands& commands, const 
                                       ? device.program("surface.comp+TEXTURED", scene.textureConstants())
                                       : device.program("surface.comp");
     dispatchTiles(commands, program, bindings, SurfacePush{}, tiles, tiles.seen());
+    recordCoarseStretch(device, commands, tiles, images);
     return images;
 }
 

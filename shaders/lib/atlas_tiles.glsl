@@ -30,12 +30,24 @@ bool tileTexel(out ivec2 texel, out uint tile) {
     return all(greaterThanEqual(at, rect.xy)) && all(lessThan(at, rect.xy + rect.zw));
 }
 
-// The same for probes, which stand for blocks of 2 × 2 texels: 16 a tile, four tiles a work group. The probe is one of the
-// atlas in any case.
+// The same at 1/2^shift of the resolution, 4^shift tiles a work group: a texel stands for a block of 2^shift × 2^shift, and is
+// one of the atlas in any case.
+bool tileBlock(uint shift, out ivec2 texel, out uint tile) {
+    uint perTile = 64u >> 2u * shift, side = ATLAS_TILE >> shift;
+    tile = listedTile(((gl_WorkGroupID.y * TILE_ROW + gl_WorkGroupID.x) << 2u * shift) + gl_LocalInvocationIndex / perTile);
+    uint within = gl_LocalInvocationIndex % perTile;
+    uvec2 at = (atlasTiles[tile == TILE_UNNEEDED ? 0u : tile].corner >> shift) + uvec2(within % side, within / side);
+    texel = ivec2(at);
+    if (tile == TILE_UNNEEDED) return false;
+    uvec4 rect = TILE_CHART.rect;
+    uvec2 low = at << shift;
+    return all(greaterThan(low + (1u << shift), rect.xy)) && all(lessThan(low, rect.xy + rect.zw));
+}
+
+// The same for probes of the sky's visibility, which stand for blocks of 2 × 2 texels, also for those just beyond the chart.
 bool tileProbe(out ivec2 probe) {
-    uint tile = listedTile((gl_WorkGroupID.y * TILE_ROW + gl_WorkGroupID.x) * 4u + gl_LocalInvocationIndex / 16u);
-    uint within = gl_LocalInvocationIndex % 16u;
-    probe = ivec2(atlasTiles[tile == TILE_UNNEEDED ? 0u : tile].corner / 2u + uvec2(within % 4u, within / 4u));
+    uint tile;
+    tileBlock(1u, probe, tile);
     return tile != TILE_UNNEEDED;
 }
 

@@ -15,12 +15,22 @@ float kernelReach(float sigma, float smoothness) {
     return step == 1.0 ? max(ceil(reach), 1.0) : floor(reach) + step;
 }
 
-// Texels along u and v that are read away from a texel by one direction (diffusion.comp's axis) of the blur from variance
-// `previous` to `previous + added` (mm²). perMm: covariance in texels² of a Gaussian of 1 mm², along u, along v and
-// between them, not below that of any texel.
-ivec2 blurReach(vec3 perMm, float added, float previous, uint axis) {
-    vec2 before = max(previous * perMm.xy - kLookupVariance, 0.0);
-    vec2 after = max((previous + added) * perMm.xy - kLookupVariance, 0.0);
+// Variances of a level's texture, in its texels² along two axes, before and after its blur from `previous` to `next` mm²; perMm:
+// those of a Gaussian of 1 mm². Whoever looks a level up between texels adds kLookupVariance to it, so the texture has that
+// much less, and is left as it is while it would be below nothing. What the level is made from is `finer` times as fine: there a lookup
+// adds less, and the mean over finer² of its texels adds the variance of a box.
+void levelVariance(vec2 perMm, float previous, float next, float finer, out vec2 before, out vec2 after) {
+    float ratio = finer * finer;
+    before = max(previous * perMm - kLookupVariance / ratio, 0.0) + (ratio - 1.0) / (12.0 * ratio);
+    after = max(next * perMm - kLookupVariance, before);
+}
+
+// Texels of a level along u and v that are read away from a texel by one direction (diffusion.comp's axis) of its blur.
+// perMm: covariance in texels² of a Gaussian of 1 mm², along u, along v and between them, not below that of any texel.
+ivec2 blurReach(vec3 perMm, float previous, float next, float finer, uint axis) {
+    vec2 before, after;
+    levelVariance(perMm.xy, previous, next, finer, before, after);
+    float added = next - previous;
     vec2 sigma = sqrt(min(after, added * perMm.xy));
     if (sigma.x == 0.0 && sigma.y == 0.0) return ivec2(0);
     vec2 smoothness = sqrt(before);

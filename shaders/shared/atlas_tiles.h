@@ -6,6 +6,7 @@ CUTIS_SHARED_BEGIN
 
 const uint ATLAS_TILE = 8u;             // texels along each side
 const uint TILE_UNNEEDED = 0xffffffffu;  // as AtlasTileState::step
+const uint COARSEST_LEVEL = 2u;          // a diffusion level has at least 1/2² of the atlas' resolution
 const uint TILE_ROW = 32768u;           // tiles along x of a dispatch: devices bound the groups along one axis
 
 // A rectangle of the atlas: the UV layout of one skin material of one character.
@@ -33,8 +34,7 @@ struct AtlasTileState {
 
 // The tiles of one chart that are needed up to one step, and the work groups for them.
 struct TileDispatch {
-    uvec3 groups;       // one a tile
-    uvec3 probeGroups;  // one for four tiles
+    uvec3 groups[COARSEST_LEVEL + 1];  // one for 1, 4 and 16 tiles: 64 texels of full, half and a quarter of the resolution
     uint tiles;
 };
 
