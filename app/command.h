@@ -28,6 +28,7 @@ std::vector<const Option*> optionsOf(const Command& command);
 // In the order in which `cutis --help` prints them.
 std::span<const Command> commands();
 
+int runView(const Request& request);
 int runRender(const Request& request);
 int runReference(const Request& request);
 int runCompare(const Request& request);

@@ -18,11 +18,6 @@ namespace {
 const char* const kDefaultScene = "default";
 const char* const kDefaultPreset = "three-point";
 
-fs::path dataFolder() {
-    const char* folder = std::getenv("CUTIS_DATA_DIR");
-    return folder && *folder ? folder : CUTIS_DATA_DIR;
-}
-
 NamedRig chooseRig(const Request& request, const Scene& scene, const fs::path& file) {
     if (request.rig == "none") return {};
     if (request.rig == "scene") {
@@ -82,6 +77,11 @@ void chooseEnvironment(const Request& request, Inputs& inputs) {
 }
 
 }  // namespace
+
+fs::path dataFolder() {
+    const char* folder = std::getenv("CUTIS_DATA_DIR");
+    return folder && *folder ? folder : CUTIS_DATA_DIR;
+}
 
 fs::path sceneFile(const std::string& operand) {
     if (operand != kDefaultScene) return operand;

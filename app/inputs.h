@@ -39,6 +39,9 @@ NamedRig loadNamedRig(const std::string& name);
 // Where the rig's environment lies; empty when it has none or it is off.
 std::filesystem::path environmentFileOf(const Rig& rig, const std::filesystem::path& rigFile);
 
+// Where set-up puts the default scene (default/) and environments (hdri/).
+std::filesystem::path dataFolder();
+
 // The scene file that an operand means. Throws Error when there is no default scene.
 std::filesystem::path sceneFile(const std::string& operand);
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <vector>
@@ -20,6 +21,10 @@ namespace cutis::app {
 
 std::span<const Command> commands() {
     static constexpr Command kCommands[] = {
+        {"", "view", "[SCENE]", 0, 1, kViewer, false, "The viewer: a window in which rigs are made and compared",
+         "SCENE is a .gltf or .glb file; without one it is 'default', the scene of real people that set-up installs. "
+         "The word view may be left out. F1 in the window lists its hot keys.",
+         runView},
         {"", "render", "SCENE", 1, 1, kRender, true, "One picture of a glTF scene",
          "SCENE is a .gltf or .glb file, or 'default' for the scene of real people that set-up installs.",
          runRender},
@@ -108,8 +113,18 @@ int showHelp(const std::vector<std::string>& words) {
     return 0;
 }
 
+// `cutis`, `cutis SCENE` and `cutis --option` open the viewer. A word is a scene when it is a file's name or the
+// default scene; any other is a mistyped command.
+bool asksForViewer(const std::vector<std::string>& arguments) {
+    if (arguments.empty()) return true;
+    const std::string& first = arguments[0];
+    if (isHelp(first) || first == "--version") return false;
+    const std::filesystem::path path = first;
+    return first.starts_with('-') || first == "default" || path.extension() == ".gltf" || path.extension() == ".glb";
+}
+
 int runProgram(std::vector<std::string> arguments) {
-    if (arguments.empty()) throw UsageError("no command");
+    if (asksForViewer(arguments)) arguments.insert(arguments.begin(), "view");
     if (isHelp(arguments[0]) || arguments[0] == "help") {
         arguments.erase(arguments.begin());
         return showHelp(arguments);
@@ -118,7 +133,6 @@ int runProgram(std::vector<std::string> arguments) {
         std::puts("cutis " CUTIS_VERSION);
         return 0;
     }
-    if (arguments[0].starts_with('-')) throw UsageError("unknown option " + arguments[0]);
     const std::vector<const Command*> found = commandsNamed(arguments);
     for (const std::string& argument : arguments) {
         if (argument == "--") break;

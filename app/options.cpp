@@ -19,8 +19,9 @@ constexpr int kMinAtlas = 8, kMaxAtlas = 16384;  // texels
 constexpr int kMaxGaussians = 32;
 constexpr double kMaxSeconds = 3.6e6;
 constexpr unsigned kPicture = kRender | kReference;  // the same picture in two ways: the same options
-constexpr unsigned kView = kPicture | kCompare | kMeasure;  // whatever shows a scene
+constexpr unsigned kView = kPicture | kCompare | kMeasure | kViewer;  // whatever shows a scene
 constexpr int kMaxRepeats = 1000;
+constexpr double kMinUiScale = 0.5, kMaxUiScale = 4;
 constexpr double kMaxExposure = 64, kMaxIntensity = 1e12, kMaxTurn = 36000;
 
 [[noreturn]] void refuse(const std::string& text, const std::string& must) {
@@ -188,6 +189,10 @@ std::vector<Option> makeOptions() {
          "The folder of the report: a new one, or one that holds an earlier report", false,
          [](Request& r, const std::string& text) { r.outputs.push_back(parseText(text)); }},
         {"--size", "WxH", kPicture | kCompare, output, "Pixels of the picture (default: 1280x720)", false, parseSize},
+        {"--size", "WxH", kViewer, "Window", "Pixels of the window (default: 1280x720)", false, parseSize},
+        {"--ui-scale", "X", kViewer, "Window",
+         "Size of text and controls: 1 is 100 %, 2 is 200 % (default: what the desktop asks for)", false,
+         [](Request& r, const std::string& text) { r.uiScale = parseNumber(text, kMinUiScale, kMaxUiScale); }},
         {"--size", "WxH", kMeasure, output, "Pixels of the pictures that are compared (default: 480x270)", false,
          [](Request& r, const std::string& text) {
              parseSize(r, text);
@@ -252,17 +257,17 @@ std::vector<Option> makeOptions() {
          "named like "
          "skin, head, face or body)",
          false, [](Request& r, const std::string& text) { r.skin = parseText(text); }},
-        {"--irradiance-size", "N", kPicture | kCompare, quality,
+        {"--irradiance-size", "N", kPicture | kCompare | kViewer, quality,
          "The irradiance atlas is exactly N×N texels (default: chosen from the picture)", false,
          [](Request& r, const std::string& text) {
              r.settings.irradianceSize = static_cast<int>(parseInteger(text, kMinAtlas, kMaxAtlas));
          }},
-        {"--gaussians", "K", kPicture | kCompare, quality,
+        {"--gaussians", "K", kPicture | kCompare | kViewer, quality,
          "Reduce each profile to K Gaussians, faster and less exact (default: all)", false,
          [](Request& r, const std::string& text) {
              r.settings.gaussians = static_cast<int>(parseInteger(text, 1, kMaxGaussians));
          }},
-        {"--merge", "NAME", kPicture | kCompare, quality,
+        {"--merge", "NAME", kPicture | kCompare | kViewer, quality,
          "How the thicknesses that several lights see become one: min, the smallest, or opposite, the distance "
          "of the other side of the skin, whatever the lights (default: min)",
          false,

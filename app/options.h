@@ -29,6 +29,8 @@ struct Request {
     std::string device;                                               // as gpu::DeviceOptions takes it
     RenderSettings settings;
 
+    double uiScale = 0;  // of cutis view: size of its interface; 0: as the desktop asks
+
     // Of cutis compare: rigs as --rig takes them; both or neither.
     std::optional<std::string> rigA, rigB;
 
@@ -47,7 +49,7 @@ struct Request {
 };
 
 // Commands that take an option, as a set of bits.
-enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4, kReference = 8, kCompare = 16, kMeasure = 32 };
+enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4, kReference = 8, kCompare = 16, kMeasure = 32, kViewer = 64 };
 
 struct Option {
     std::string_view names;    // "-o, --output", the long one last

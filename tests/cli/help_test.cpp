@@ -9,9 +9,9 @@
 namespace cutis::test {
 namespace {
 
-const std::vector<std::vector<std::string>> kCommands = {{"render"},       {"reference"},     {"compare"},
-                                                         {"measure"},      {"rig", "list"},   {"rig", "show"},
-                                                         {"rig", "check"}, {"rig", "export"}, {"devices"}};
+const std::vector<std::vector<std::string>> kCommands = {
+    {"view"},        {"render"},      {"reference"},    {"compare"},       {"measure"},
+    {"rig", "list"}, {"rig", "show"}, {"rig", "check"}, {"rig", "export"}, {"devices"}};
 
 std::string joined(const std::vector<std::string>& words) {
     std::string text;

@@ -1,6 +1,7 @@
 // A wrong command line ends with status 2 and one line that names what is wrong.
 #include <gtest/gtest.h>
 
+#include "renderer/scene/gltf_writer.h"
 #include "tests/cli/program.h"
 
 namespace cutis::test {
@@ -13,11 +14,12 @@ struct Wrong {
 
 TEST(Usage, WrongCommandLines) {
     const std::vector<Wrong> table = {
-        {{}, {"no command"}},
         {{""}, {"unknown command ''"}},
         {{"rendr"}, {"unknown command 'rendr'", "did you mean 'render'?"}},
-        {{"scene.glb"}, {"unknown command 'scene.glb'"}},
-        {{"--size", "1x1"}, {"unknown option --size"}},
+        {{"scene.obj"}, {"unknown command 'scene.obj'"}},
+        {{"--sizes", "1x1"}, {"unknown option --sizes", "did you mean '--size'?", "see cutis view --help"}},
+        {{"view", "a.glb", "b.glb"}, {"'b.glb' is too much"}},
+        {{"view", "--ui-scale", "0"}, {"--ui-scale is '0'"}},
         {{"help", "nothing"}, {"unknown command 'nothing'"}},
         {{"rig"}, {"cutis rig needs one of list, show, check, export", "see cutis rig --help"}},
         {{"rig", "lst"}, {"unknown command 'rig lst'", "did you mean 'list'?"}},
@@ -28,6 +30,19 @@ TEST(Usage, WrongCommandLines) {
         {{"devices", "--device", "cpu"}, {"unknown option --device", "see cutis devices --help"}},
     };
     for (const Wrong& wrong : table) expectFailure(runCutis(wrong.arguments), 2, wrong.parts);
+}
+
+// `cutis` is the viewer: without a display it is one clear line, and so is a scene that is not there.
+TEST(Usage, ViewerNeedsADisplayAndAScene) {
+    const TemporaryFolder folder;
+    const std::string scene = folder / "heads.glb", missing = folder / "missing.glb";
+    writeGlb(twoHeads(), scene);
+    const EnvironmentVariables noDisplay = {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
+    expectFailure(runCutis({scene}, noDisplay), 1, {"cannot open the viewer", "there is no display"});
+    expectFailure(runCutis({"view", scene}, noDisplay), 1, {"there is no display"});
+    expectFailure(runCutis({missing}, noDisplay), 1, {"no such file", "missing.glb"});
+    const EnvironmentVariables noData = {{"DISPLAY", ""}, {"CUTIS_DATA_DIR", folder / "data"}};
+    expectFailure(runCutis({}, noData), 1, {"no default scene"});
 }
 
 TEST(Usage, WrongOptionsOfRender) {

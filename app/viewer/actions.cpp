@@ -1,0 +1,242 @@
+#include "app/viewer/actions.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <utility>
+
+#include "app/inputs.h"
+#include "renderer/core/error.h"
+#include "renderer/core/files.h"
+#include "renderer/scene/environment.h"
+#include "renderer/scene/picture.h"
+#include "renderer/scene/presets.h"
+#include "renderer/scene/rig.h"
+
+namespace cutis::app {
+namespace fs = std::filesystem;
+namespace {
+
+std::string lowercaseExtension(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+fs::path recoveredFile() {
+    return cacheFolder() / "recovered.rig.json";
+}
+
+// Runs what may throw Error for something that the user gave.
+template <class Function>
+bool attempt(Session& session, const Function& function) {
+    try {
+        function();
+        return true;
+    } catch (const Error& error) {
+        session.complain(error.what());
+    }
+    return false;
+}
+
+// A rig from a file with its environment's name made absolute.
+Rig loadWholeRig(const fs::path& file) {
+    Rig rig = loadRig(file);
+    if (!rig.environment.file.empty())
+        rig.environment.file =
+            fs::absolute(file.parent_path() / rig.environment.file).lexically_normal().string();
+    return rig;
+}
+
+}  // namespace
+
+void openFile(Session& session, const fs::path& file) {
+    const std::string extension = lowercaseExtension(file);
+    if (extension == ".gltf" || extension == ".glb") return openScene(session, file.string());
+    if (extension == ".json") return openRig(session, file);
+    openEnvironment(session, file);
+}
+
+void openScene(Session& session, const std::string& scene) {
+    Request request;
+    request.operands = {scene};
+    request.settings = session.request.settings;
+    session.opening = request;
+}
+
+void openRig(Session& session, const fs::path& file) {
+    attempt(session, [&] {
+        const Rig rig = loadWholeRig(file);
+        session.edits.endGesture();
+        session.edits.apply("Open rig " + file.filename().string(), [&](Document& document) {
+            replaceRig(document, rig, fs::absolute(file).lexically_normal());
+        });
+        session.edits.markSaved();
+        session.say("Opened " + file.string());
+    });
+}
+
+void openPreset(Session& session, const std::string& name) {
+    attempt(session, [&] {
+        Rig rig = presetRig(name);
+        session.edits.endGesture();
+        session.edits.apply("Preset " + name, [&](Document& document) {
+            rig.environment = document.rig.environment;  // a preset has lights only
+            replaceRig(document, rig, {});
+        });
+    });
+}
+
+void openEnvironment(Session& session, const fs::path& file) {
+    attempt(session, [&] {
+        loadEnvironment(file);  // refuses what is no environment before it becomes part of the document
+        session.edits.apply("Environment " + file.filename().string(), [&](Document& document) {
+            document.rig.environment.file = fs::absolute(file).lexically_normal().string();
+            document.rig.environment.enabled = true;
+        });
+    });
+}
+
+bool saveRig(Session& session) {
+    const fs::path file = session.document().rigFile;
+    if (!file.empty()) return saveRigAs(session, file);
+    showDialog(session, Dialog::saveRig, "untitled.rig.json");
+    return false;
+}
+
+bool saveRigAs(Session& session, const fs::path& file) {
+    return attempt(session, [&] {
+        const fs::path whole = fs::absolute(file).lexically_normal();
+        cutis::saveRig(rigForFile(session.document().rig, whole), whole);
+        if (session.document().rigFile != whole) {
+            session.edits.endGesture();
+            session.edits.apply("Save as " + whole.filename().string(),
+                                [&](Document& document) { document.rigFile = whole; });
+            session.edits.endGesture();
+        }
+        session.edits.markSaved();
+        discardAutosave();
+        session.say("Saved " + whole.string());
+    });
+}
+
+void savePicture(Session& session, const fs::path& file) {
+    const std::string extension = lowercaseExtension(file);
+    if (extension != ".png" && extension != ".exr") {
+        session.complain("A picture's name must end in .png or .exr");
+        return;
+    }
+    session.savingPicture = fs::absolute(file);
+    session.say("Saves " + file.string() + " when the full picture is there");
+    continueSaving(session);
+}
+
+void continueSaving(Session& session) {
+    using namespace std::chrono_literals;
+    if (session.writing.valid() && session.writing.wait_for(0s) == std::future_status::ready) {
+        const std::string problem = session.writing.get();
+        problem.empty() ? session.say("The picture is saved") : session.complain(problem);
+    }
+    if (session.savingPicture.empty() || session.writing.valid() || !session.picture ||
+        !session.picture->full || session.picture->version != session.edits.version())
+        return;
+    const fs::path file = std::exchange(session.savingPicture, {});
+    session.writing = std::async(std::launch::async, [file, picture = session.picture->linear,
+                                                      exposure = session.document().rig.exposure] {
+        try {
+            lowercaseExtension(file) == ".png" ? writePng(file, *picture, exposure)
+                                               : writeExr(file, *picture);
+        } catch (const std::exception& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    });
+}
+
+void quit(Session& session) {
+    if (session.edits.unsaved()) {
+        showDialog(session, Dialog::unsaved);
+    } else {
+        session.quit = true;
+    }
+}
+
+void undo(Session& session) {
+    const std::string label = session.edits.undoLabel();
+    session.edits.undo();
+    session.say(label.empty() ? "Nothing to undo" : "Undone: " + label);
+}
+
+void redo(Session& session) {
+    const std::string label = session.edits.redoLabel();
+    session.edits.redo();
+    session.say(label.empty() ? "Nothing to redo" : "Redone: " + label);
+}
+
+void showDialog(Session& session, Dialog dialog, const std::string& path) {
+    session.dialog = dialog;
+    session.dialogOpens = true;
+    session.dialogPath = path;
+}
+
+void storeState(Session& session, std::size_t slot) {
+    if (!session.picture) return;
+    StoredState& state = session.compared[slot];
+    state = {true,  session.document(),       session.edits.version(),
+             false, session.picture->display, session.picture->linear,
+             true};
+    state.full = session.picture->full && session.picture->version == state.version;
+    session.say(slot == 0 ? "Stored as A" : "Stored as B");
+}
+
+void recallState(Session& session, std::size_t slot) {
+    const StoredState& state = session.compared[slot];
+    if (!state.stored) return;
+    session.edits.endGesture();
+    session.edits.apply(slot == 0 ? "Recall A" : "Recall B",
+                        [&](Document& document) { document = state.document; });
+    session.edits.endGesture();
+}
+
+fs::path autosaveFile() {
+    const fs::path folder = cacheFolder();
+    return folder.empty() ? fs::path() : folder / "autosave.rig.json";
+}
+
+void autosave(Session& session) {
+    const fs::path file = autosaveFile();
+    if (file.empty() || !session.edits.unsaved()) return;
+    try {
+        cutis::saveRig(session.document().rig, file);
+    } catch (const Error&) {  // a full disk must not disturb the work: saving by hand says what is wrong
+    }
+}
+
+void discardAutosave() {
+    std::error_code error;
+    if (const fs::path file = autosaveFile(); !file.empty()) fs::remove(file, error);
+}
+
+bool keepAutosave() {
+    std::error_code error;
+    if (const fs::path file = autosaveFile(); !file.empty() && fs::is_regular_file(file, error))
+        fs::rename(file, recoveredFile(), error);
+    return !autosaveFile().empty() && fs::is_regular_file(recoveredFile(), error);
+}
+
+void recoverRig(Session& session) {
+    attempt(session, [&] {
+        const Rig rig = loadRig(recoveredFile());
+        session.edits.endGesture();
+        session.edits.apply("Recover rig",
+                            [&](Document& document) { replaceRig(document, rig, document.rigFile); });
+        session.recoverable = false;
+        autosave(session);  // before its only copy goes
+        std::error_code error;
+        fs::remove(recoveredFile(), error);
+        session.say("Recovered the rig that was not saved");
+    });
+}
+
+}  // namespace cutis::app

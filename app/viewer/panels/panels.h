@@ -1,0 +1,23 @@
+// The panels: what they show is the session, what they change goes through its edit list. Each is drawn into
+// the current ImGui window.
+#pragma once
+
+#include "app/viewer/session.h"
+
+namespace cutis::app {
+
+void drawRigPanel(Session& session);    // the list of lights
+void drawLightPanel(Session& session);  // the chosen one
+void drawCameraPanel(Session& session);
+void drawEnvironmentPanel(Session& session);
+void drawSkinPanel(Session& session);
+void drawComparePanel(Session& session);
+void drawPlanPanel(Session& session);
+
+// These make windows of their own.
+float drawMenuBar(Session& session);  // returns its height
+void drawStatusBar(Session& session, float height);
+void drawHelp(Session& session);
+void drawDialogs(Session& session);
+
+}  // namespace cutis::app

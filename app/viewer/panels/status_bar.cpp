@@ -1,0 +1,62 @@
+// One line: what is being done, what the last action said.
+#include <imgui.h>
+
+#include <cstdio>
+
+#include "app/viewer/panels/panels.h"
+#include "app/viewer/style.h"
+
+namespace cutis::app {
+namespace {
+
+std::string workText(const Session& session) {
+    char text[256] = "";
+    const WorkerStatus& worker = session.worker;
+    if (!session.loading.empty()) {
+        std::snprintf(text, sizeof text, "Loading %s, %.0f s", session.loading.c_str(),
+                      session.loadingSeconds);
+    } else if (worker.busy) {
+        std::snprintf(text, sizeof text, "Rendering %d \xc3\x97 %d, %.0f s", worker.width, worker.height,
+                      worker.seconds);
+    } else if (session.picture && session.picture->full) {
+        std::snprintf(text, sizeof text, "Picture complete, %d \xc3\x97 %d in %.1f s",
+                      session.picture->display.width, session.picture->display.height,
+                      session.picture->seconds);
+    }
+    return text;
+}
+
+}  // namespace
+
+void drawStatusBar(Session& session, float height) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0, display.y - height});
+    ImGui::SetNextWindowSize({display.x, height});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
+                        {10 * float(session.uiScale), 4 * float(session.uiScale)});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
+    ImGui::Begin("##status", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+    const std::string work = workText(session), device = session.worker.device;
+    const bool failed = !session.worker.error.empty();
+    ImGui::TextUnformatted(work.c_str());
+    if (!work.empty()) ImGui::SameLine(0, 20 * float(session.uiScale));
+    const std::string& said = failed ? session.worker.error : session.message;
+    const float right = display.x - ImGui::CalcTextSize(device.c_str()).x - 20 * float(session.uiScale);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    // What is too long for its place ends where the device's name begins, and is whole in the tooltip.
+    ImGui::PushClipRect(at, {right - 10, at.y + height}, true);
+    if (failed || session.messageIsError) ImGui::PushStyleColor(ImGuiCol_Text, warningColor());
+    ImGui::TextUnformatted(said.c_str());
+    if (failed || session.messageIsError) ImGui::PopStyleColor();
+    ImGui::PopClipRect();
+    if (!said.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", said.c_str());
+    ImGui::SameLine(right);
+    ImGui::TextDisabled("%s", device.c_str());
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
+}
+
+}  // namespace cutis::app

@@ -1,0 +1,24 @@
+// Rows of a panel: a label on the left, its control on the right, each change an undoable edit.
+#pragma once
+
+#include <string>
+
+namespace cutis::app {
+
+// Puts the label down; the next control fills the rest of the row.
+void label(const char* text);
+// Rows. Each returns true when the user changed the value; the label is also the control's identity.
+bool dragRow(const char* text, double& value, float speed, double min, double max, const char* format,
+             bool logarithmic = false);
+bool sliderRow(const char* text, double& value, double min, double max, const char* format,
+               bool logarithmic = false);
+bool intRow(const char* text, int& value, int min, int max, const char* format = "%d");
+bool checkRow(const char* text, bool& value);
+bool textRow(const char* text, std::string& value);
+// A heading with a thin line.
+void heading(const char* text);
+void hint(const char* text);  // shown when the mouse rests on the last control
+// A small button that stays down while `on`.
+bool toggleButton(const char* text, bool on, unsigned color);
+
+}  // namespace cutis::app

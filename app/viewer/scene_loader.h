@@ -1,0 +1,47 @@
+// Loads scenes on a thread of its own.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/options.h"
+#include "app/viewer/document.h"
+
+namespace cutis::app {
+
+// What a scene file and the options make of it.
+struct LoadedScene {
+    std::string name;                 // as it was asked for: a file, or "default"
+    std::shared_ptr<Scene> scene;     // with texels: for the renderer alone
+    std::shared_ptr<Scene> geometry;  // the same without texels: for the interface
+    Document document;                // the scene as it opens
+    std::string error;                // not empty: nothing was loaded, for this reason
+};
+
+class SceneLoader {
+  public:
+    // `wake` is called, on the loader's thread, when a scene is there.
+    explicit SceneLoader(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+    // Loads operand 0 of the request as loadInputs does. What was under way is thrown away when it is done.
+    void start(const Request& request);
+    bool loading() const { return pending_.valid(); }
+    const std::string& name() const { return name_; }
+    double seconds() const;  // since start
+
+    // What is there now, if anything is.
+    std::optional<LoadedScene> take();
+
+  private:
+    std::function<void()> wake_;
+    std::future<LoadedScene> pending_;
+    std::optional<Request> next_;
+    std::string name_;
+    std::chrono::steady_clock::time_point begun_;
+};
+
+}  // namespace cutis::app

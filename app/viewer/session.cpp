@@ -1,0 +1,89 @@
+#include "app/viewer/session.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "renderer/core/error.h"
+#include "renderer/scene/camera.h"
+#include "renderer/scene/characters.h"
+#include "renderer/scene/light_samples.h"
+#include "renderer/scene/rig.h"
+
+namespace cutis::app {
+namespace {
+
+// Luminance of what the light gives a surface at its subject's head that faces it.
+double irradianceAtHead(const Light& light, const Scene& scene, const glm::dvec3& everyone) {
+    Rig alone;
+    alone.lights = {light};
+    alone.lights[0].enabled = true;
+    glm::dvec3 head = everyone;
+    if (light.place) {
+        resolvePlacements(alone, scene);
+        head = alone.lights[0].position + light.place->distance * alone.lights[0].direction;
+    }
+    const Light& placed = alone.lights[0];
+    const glm::dvec3 towards =
+        placed.type == LightType::directional ? -placed.direction : glm::normalize(placed.position - head);
+    glm::dvec3 sum(0);
+    for (const LightSample& sample : sampleLights(alone)) sum += irradianceFrom(sample, head, towards);
+    return glm::dot(sum, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+}  // namespace
+
+void Session::complain(const std::string& text) {
+    message = text;
+    messageIsError = true;
+    std::fprintf(stderr, "cutis: %s\n", text.c_str());
+}
+
+Camera currentCamera(const Session& session) {
+    const View& view = session.document().view;
+    return view.camera.empty() ? toCamera(view.orbit, session.aspect())
+                               : cameraFor(*session.geometry, view.camera, session.aspect());
+}
+
+void editLight(Session& session, const std::string& label, const std::function<void(Light&)>& change) {
+    if (!session.hasLight()) return;
+    const std::size_t index = static_cast<std::size_t>(session.selectedLight);
+    session.edits.apply(label + " of " + session.light().name,
+                        [&](Document& document) { change(document.rig.lights[index]); });
+}
+
+void editView(Session& session, const std::string& label, const std::function<void(OrbitCamera&)>& change) {
+    if (!session.geometry) return;
+    const Camera camera = currentCamera(session);
+    session.edits.apply(label, [&](Document& document) {
+        View& view = document.view;
+        if (!view.camera.empty()) {
+            view.orbit = fromCamera(camera, session.headCentre);
+            view.camera.clear();
+        }
+        change(view.orbit);
+    });
+}
+
+void updateDerived(Session& session) {
+    if (!session.geometry || session.derivedVersion == session.edits.version()) return;
+    session.derivedVersion = session.edits.version();
+    const Document& document = session.document();
+    if (document.scene == session.openedScene) applySkin(*session.geometry, document.skin);
+    const Bounds head = headBounds(*session.geometry, "*");
+    session.headCentre = head.empty() ? glm::dvec3(0) : head.centre();
+    session.headIrradiance.clear();
+    for (const Light& light : document.rig.lights) {
+        double irradiance = 0;
+        try {
+            irradiance = irradianceAtHead(light, *session.geometry, session.headCentre);
+        } catch (const Error&) {  // its subject is not in this scene: rendering says so
+        }
+        session.headIrradiance.push_back(irradiance);
+    }
+    const int lights = static_cast<int>(document.rig.lights.size());
+    session.selectedLight = std::clamp(session.selectedLight, lights ? 0 : -1, lights - 1);
+    session.selectedCharacter =
+        std::min(session.selectedCharacter, static_cast<int>(session.geometry->characters.size()) - 1);
+}
+
+}  // namespace cutis::app

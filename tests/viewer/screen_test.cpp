@@ -1,0 +1,100 @@
+// The real program on a virtual screen, driven by key and mouse events (tests/viewer/drive.sh).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/scene/gltf_writer.h"
+#include "renderer/scene/picture.h"
+#include "renderer/scene/rig.h"
+#include "tests/cli/program.h"
+
+namespace cutis::test {
+namespace {
+
+struct Rectangle {
+    int left, top, right, bottom;
+};
+
+// Standard deviation of the luma within a rectangle: 0 where there is one colour.
+double contrast(const Picture& picture, const Rectangle& in) {
+    double sum = 0, squares = 0, count = 0;
+    for (int y = in.top; y < in.bottom; ++y) {
+        for (int x = in.left; x < in.right; ++x) {
+            const float* p = &picture.values[(std::size_t(y) * picture.width + x) * picture.channels];
+            const double luma = 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];
+            sum += luma, squares += luma * luma, ++count;
+        }
+    }
+    const double mean = sum / count;
+    return std::sqrt(std::max(squares / count - mean * mean, 0.0));
+}
+
+double relativeL2(const Picture& a, const Picture& b) {
+    double difference = 0, whole = 0;
+    for (std::size_t i = 0; i < b.values.size(); ++i) {
+        difference += std::pow(double(a.values[i]) - b.values[i], 2);
+        whole += std::pow(double(b.values[i]), 2);
+    }
+    return std::sqrt(difference / whole);
+}
+
+Light spotAt(const std::string& name, double azimuth) {
+    Light light;
+    light.name = name;
+    light.type = LightType::spot;
+    light.intensity = 4;
+    light.outerConeAngle = 0.6;
+    light.place = Placement{"*", azimuth, 20, 1.5};
+    return light;
+}
+
+TEST(Screen, ARigIsMadeComparedUndoneAndSaved) {
+    const TemporaryFolder folder;
+    const std::string scene = folder / "heads.glb", rigFile = folder / "heads.rig.json";
+    writeGlb(twoHeads(), scene);
+    Rig rig;
+    rig.lights = {spotAt("key", 30), spotAt("rim", 150)};
+    saveRig(rig, rigFile);
+
+    const ProcessResult run =
+        runProcess({"/bin/bash", CUTIS_DRIVE_SCRIPT, CUTIS_PROGRAM, scene, folder.path()},
+                   {{"CUTIS_CACHE_DIR", folder / "cache"},
+                    {"CUTIS_DATA_DIR", folder / "data"},
+                    {"CUTIS_VALIDATION", "1"}},
+                   150);
+    ASSERT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_NE(run.out.find("title: cutis - heads.glb"), std::string::npos) << run.out;
+    // Validation messages and errors go there: the bad file is the only one.
+    EXPECT_EQ(run.err.rfind("cutis: ", 0), 0u) << run.err;
+    EXPECT_NE(run.err.find("bad.glb"), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+
+    // Three times a third of a stop brighter, one of them undone; the second light muted.
+    const Rig saved = loadRig(rigFile);
+    ASSERT_EQ(saved.lights.size(), 2u);
+    EXPECT_NEAR(saved.lights[0].intensity, 4 * std::exp2(2 / 3.0), 1e-9);
+    EXPECT_TRUE(saved.lights[0].enabled);
+    EXPECT_FALSE(saved.lights[1].enabled);
+    EXPECT_EQ(saved.lights[1].intensity, 4);
+
+    // The picture is what the command line makes of the saved rig.
+    const Picture shown = readPicture(folder / "picture.exr");
+    const std::string size = std::to_string(shown.width) + 'x' + std::to_string(shown.height);
+    expectSuccess(runCutis({"render", scene, "--rig", rigFile, "--device", "cpu", "--size", size, "-o",
+                            folder / "command.exr"}));
+    const Picture expected = readPicture(folder / "command.exr");
+    ASSERT_EQ(shown.values.size(), expected.values.size());
+    // The view goes through angles and back: some 1e-9 of a pixel, which may tip a sample over an edge.
+    EXPECT_LT(relativeL2(shown, expected), 2e-3);
+
+    const Picture screen = readPicture(folder / "screen.png");
+    ASSERT_EQ(screen.width, 960);
+    ASSERT_EQ(screen.height, 540);
+    const int left = (screen.width - shown.width) / 2;
+    EXPECT_GT(contrast(screen, {left, 100, screen.width - left, 450}), 0.03)
+        << "no picture between the panels";
+    EXPECT_GT(contrast(screen, {5, 30, left - 5, 300}), 0.03) << "no rig panel";
+}
+
+}  // namespace
+}  // namespace cutis::test
