@@ -256,7 +256,7 @@ void computeMetric(const Scene& scene, const Geometry& geometry, const std::vect
         longestSides[geometry.drawInfos[geometry.triangleDraws[t]].chart].emplace_back(std::sqrt(longest), texels);
     }
     for (std::size_t c = 0; c < atlas.charts.size(); ++c) {
-        atlas.charts[c].coarsestMm = weightedQuantile(longestSides[c], 0.95);
+        atlas.charts[c].coarsestMm = weightedQuantile(longestSides[c], 0.8);
     }
     for (std::size_t v = 0; v < weld.size(); ++v) {
         const glm::dvec4 sum = sums[weld[v]];

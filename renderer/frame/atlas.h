@@ -15,7 +15,7 @@ struct AtlasChart {
     glm::dvec2 uvMin{0}, uvMax{0};
     glm::dvec2 sizeMm{0};  // of the rectangle on the surface, on average
     glm::uvec4 rect{0};    // x, y, width, height in texels
-    double coarsestMm = 0;  // longest side of a texel, but for the largest 5 % of them
+    double coarsestMm = 0;  // longest side of a texel, but for the largest fifth of them
 };
 
 struct Atlas {

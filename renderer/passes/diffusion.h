@@ -10,9 +10,9 @@
 namespace cutis {
 
 // The resolution of each level of diffusion, 1/2^shift of the atlas': the lowest at which its Gaussian still
-// has a standard deviation of kSmoothTexels, on every chart, but for the largest 5 % of texels.
+// has a standard deviation of kSmoothTexels, on every chart, but for the largest fifth of texels; there the blur is as narrow as a lookup allows.
 std::vector<std::uint32_t> levelShifts(std::span<const ChartRange> charts, bool reduced);
-inline constexpr double kSmoothTexels = 1.5;
+inline constexpr double kSmoothTexels = 1.25;
 
 // Makes surface.coarseStretch for the resolutions of these tiles' levels.
 void recordCoarseStretch(gpu::Device& device, gpu::Commands& commands, const AtlasTiles& tiles,

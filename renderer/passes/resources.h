@@ -52,7 +52,7 @@ struct ChartRange {
     std::uint32_t firstGaussian = 0;
     skin::Profile profile;  // in mm², scaled and reduced as the frame uses it
     float mmPerUnit = 1000;
-    double coarsestMm = 0;  // longest side of a texel, but for the largest 5 % of them
+    double coarsestMm = 0;  // longest side of a texel, but for the largest fifth of them
     std::uint32_t receiverGroup = 0;
 };
 
