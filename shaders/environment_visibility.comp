@@ -22,6 +22,7 @@ layout(binding = 0) uniform texture2D position;
 layout(binding = 1) uniform texture2D normal;
 layout(binding = 2, r32ui) writeonly uniform uimage2DArray visibility;
 layout(binding = 6, scalar) readonly buffer DrawBuffer { DrawInfo draws[]; };
+layout(binding = 7, scalar) readonly buffer MaterialBuffer { Material materials[]; };
 #endif
 layout(binding = 3, scalar) readonly buffer LightViewBuffer { LightView lightViews[]; };
 layout(binding = 4) uniform sampler2DArrayShadow lightDepthCompare;
@@ -42,7 +43,8 @@ layout(push_constant, scalar) uniform Push {
 #define LIGHT_MAPS_COMPARE_ONLY
 #include "lib/light_maps.glsl"
 
-uint visibilityBits(vec3 p, vec3 n) {
+// ownSide: whether the maps hold the side of the probe's own surface that faces the light.
+uint visibilityBits(vec3 p, vec3 n, bool ownSide) {
     uint bits = 0u;
     // Views are found by push constants alone: a software device reads them once for all invocations.
     [[unroll]] for (uint i = 0u; i < 32u; ++i) {
@@ -51,7 +53,7 @@ uint visibilityBits(vec3 p, vec3 n) {
         vec3 away = vec3(view.worldToClip[0].z, view.worldToClip[1].z, view.worldToClip[2].z);
         vec3 l = -normalize(away);
         // Normal maps tilt by no more than this.
-        bool reaches = lightMapReaches(view, p, n, l, push.clearance);
+        bool reaches = lightMapReaches(view, p, n, l, push.clearance, ownSide);
         bits |= dot(n, l) > -0.2 && reaches ? 1u << i : 0u;
     }
     return bits;
@@ -64,7 +66,7 @@ void main() {
     uint i = min(gl_GlobalInvocationID.x, push.vertexCount - 1u);
     uint vertex = push.firstVertex + i;
     visibility[push.word * push.probeCount + push.firstProbe + i] =
-        visibilityBits(positions[vertex], attributes[vertex].normal);
+        visibilityBits(positions[vertex], attributes[vertex].normal, true);
 #else
     ivec2 probe;
     bool listed = tileProbe(probe);
@@ -75,7 +77,9 @@ void main() {
     // Where charts meet, a probe belongs to the one that its texel is of.
     listed = listed && draws[max(uint(place.w), 1u) - 1u].chart == push.tiles.chart;
     vec3 n = decodeOctahedral(texelFetch(normal, texel, 0).xy);
-    uint bits = visibilityBits(place.xyz, n);
+    const uint kNotClosed = MATERIAL_DOUBLE_SIDED | MATERIAL_MASK | MATERIAL_BLEND;  // DrawRange::closed
+    bool ownSide = (materials[draws[max(uint(place.w), 1u) - 1u].material].flags & kNotClosed) != 0u;
+    uint bits = visibilityBits(place.xyz, n, ownSide);
     if (listed) imageStore(visibility, ivec3(probe, push.word), uvec4(bits));
 #endif
 }

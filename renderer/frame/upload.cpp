@@ -174,6 +174,7 @@ std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry, 
         range.blended = material.alphaMode == AlphaMode::blend;
         range.doubleSided = material.doubleSided;
         range.masked = material.alphaMode != AlphaMode::opaque;
+        range.closed = range.skin && !range.doubleSided && !range.masked;
         if (material.baseColorTexture) {
             range.alphaGroup = static_cast<std::uint32_t>(arrays.places[material.baseColorTexture.texture].group);
         }

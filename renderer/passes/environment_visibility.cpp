@@ -96,6 +96,7 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
                                {"normal", input.surface->normal},
                                {"visibility", result.visibility},
                                {"DrawBuffer", input.scene->draws},
+                               {"MaterialBuffer", input.scene->materials},
                                {"LightViewBuffer", viewBuffer},
                                {"lightDepthCompare", depthComparison(device, depth)}},
                               *input.tiles);

@@ -18,6 +18,7 @@ struct MapPush {
 // Draw calls of one kind: skin that takes light in, whatever else stops it, or one masked material.
 struct Batch {
     bool skin = false, masked = false;
+    bool farSide = false;  // only what faces away from the light
     std::uint32_t material = 0, alphaGroup = 0;  // of a masked batch
     std::vector<gpu::DrawCall> calls;
 };
@@ -32,14 +33,15 @@ std::vector<Batch> batchesFor(const SceneBuffers& scene, const LightMapTargets& 
         const std::uint32_t first = targets.proxies ? range.firstProxyIndex : range.firstIndex;
         const std::uint32_t count = targets.proxies ? range.proxyIndexCount : range.indexCount;
         if (count == 0) continue;
+        const bool farSide = targets.proxies && range.closed;
         Batch* batch = nullptr;
         for (Batch& known : batches) {
-            if (known.skin == skin && known.masked == range.masked &&
+            if (known.skin == skin && known.masked == range.masked && known.farSide == farSide &&
                 (!range.masked || known.material == range.material)) {
                 batch = &known;
             }
         }
-        if (!batch) batch = &batches.emplace_back(Batch{skin, range.masked, range.material, range.alphaGroup, {}});
+        if (!batch) batch = &batches.emplace_back(Batch{skin, range.masked, farSide, range.material, range.alphaGroup, {}});
         std::vector<gpu::DrawCall>& calls = batch->calls;
         if (!calls.empty() && calls.back().first + calls.back().count == first) {
             calls.back().count += count;
@@ -51,8 +53,13 @@ std::vector<Batch> batchesFor(const SceneBuffers& scene, const LightMapTargets& 
 }
 
 void drawBatch(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
-               const LightMapTargets& targets, const gpu::RasterState& state, std::uint32_t view,
+               const LightMapTargets& targets, gpu::RasterState state, std::uint32_t view,
                const Batch& batch) {
+    if (batch.farSide) {
+        // Light views hold +Y at the bottom of the map: triangles turn the other way there.
+        state.frontFace = VK_FRONT_FACE_CLOCKWISE;
+        state.cull = VK_CULL_MODE_FRONT_BIT;
+    }
     std::string vertex = "light_map.vert", fragment = "light_map.frag";
     gpu::Bindings bindings{{"PositionBuffer", scene.positions}, {"LightViewBuffer", *targets.viewBuffer}};
     if (targets.entry) fragment += "+ENTRY";

@@ -16,7 +16,9 @@ struct LightMapTargets {
     std::span<const shared::LightView> views;  // all of the buffer
     std::uint32_t firstView = 0, viewCount = 0;
     int atlasSize = 0;     // with entry
-    bool proxies = false;  // draw coarser forms of the meshes
+    // Draw coarser forms of the meshes, and of closed skin only what faces away from the light: it casts the same
+    // shadows, and none on its own lit side, so that nothing needs to be lifted off it.
+    bool proxies = false;
 };
 void recordLightMaps(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                      const LightMapTargets& targets);

@@ -60,10 +60,12 @@ float compareLightMap(uint layer, LightMapPoint at, vec2 offset) {
 }
 
 // Whether light of an orthographic view reaches p: one comparison, for many directions that are averaged. clearance: how
-// far, in metres, what is drawn in the map may stand above the true surface.
-bool lightMapReaches(LightView view, vec3 p, vec3 n, vec3 l, float clearance) {
+// far, in metres, what is drawn in the map may stand above the true surface. Where the map holds but the
+// far sides of p's own surface (not its `ownSide`), p needs no lift, and what lies close above it casts its shadow.
+bool lightMapReaches(LightView view, vec3 p, vec3 n, vec3 l, float clearance, bool ownSide) {
     float cosine = clamp(dot(n, l), 0.0, 1.0);
-    vec3 lifted = p + n * (clearance + view.texelSize * (0.25 + 1.5 * sqrt(1.0 - cosine * cosine)));
+    float lift = clearance + view.texelSize * (0.25 + 1.5 * sqrt(1.0 - cosine * cosine));
+    vec3 lifted = ownSide ? p + n * lift : p;
     vec3 at = (view.worldToClip * vec4(lifted, 1.0)).xyz;
     return texture(lightDepthCompare, vec4(at.xy * 0.5 + 0.5, float(view.layer), clamp(at.z, 0.0, 1.0))) > 0.5;
 }
