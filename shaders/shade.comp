@@ -28,6 +28,7 @@ layout(binding = 11, scalar) readonly buffer LightBuffer { LightSampleData light
 layout(binding = 12, scalar) readonly buffer AlbedoTableBuffer { float albedoTable[]; };
 layout(binding = 13, scalar) readonly buffer AtlasVertexBuffer { AtlasVertex atlasVertices[]; };
 layout(binding = 14) uniform texture2D exitance;  // rgb: M; a: island
+layout(binding = 27) uniform texture2D surfaceNormal;  // see surface.comp
 #ifdef SHADOWS
 layout(binding = 15) uniform texture2DArray lightVisibility;  // a layer a light
 #endif
@@ -137,7 +138,7 @@ struct Shade {
 void shadeSkin(inout Shade shade, Material material, vec2 atlasTexel, float island, vec3 p, vec3 smoothNormal, vec3 n, vec3 view) {
     // Facing away from the viewer by the normal map alone: the closest direction that is still seen.
     float mu = max(dot(n, view), 1e-4);
-    AtlasLookup at = atlasLookup(exitance, atlasTexel, island);
+    AtlasLookup at = atlasLookup(exitance, surfaceNormal, atlasTexel, island, smoothNormal);
     vec3 m = lookUp(exitance, at).rgb;
     vec3 after = material.mix >= 1.0 ? vec3(1.0) : pow(shade.albedo, vec3(1.0 - material.mix));
     float through = transmittedFraction(mu, material.specularScale, material.albedoRow) /

@@ -215,6 +215,7 @@ void compositeRow(FrameContext& frame) {
                         {.scene = &frame.scene.buffers,
                          .buffers = &frame.viewTile,
                          .skin = frame.needs[Need::litSkin] ? &frame.skin : nullptr,
+                         .surface = &frame.surface,
                          .lights = &frame.lights,
                          .environment = environment ? &frame.environmentMaps : nullptr,
                          .visibility = environment ? &frame.visibility : nullptr,

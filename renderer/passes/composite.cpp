@@ -216,6 +216,7 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
         bindings.push_back({"AlbedoTableBuffer", scene.albedoTable});
         bindings.push_back({"AtlasVertexBuffer", scene.atlasVertices});
         bindings.push_back({"exitance", input.skin->exitance});
+        bindings.push_back({"surfaceNormal", input.surface->normal});
         if (aovs) bindings.push_back({"incident", input.skin->incident});
     }
     if (input.lights->depth) {

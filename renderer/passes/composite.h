@@ -50,6 +50,7 @@ struct CompositeInput {
     const SceneBuffers* scene;
     const TileBuffers* buffers;
     const SkinLight* skin = nullptr;  // nullptr: no skin
+    const SurfaceImages* surface = nullptr;  // with skin
     const LightMaps* lights;          // without depth: no shadows
     const EnvironmentMaps* environment = nullptr;
     const EnvironmentVisibility* visibility = nullptr;  // with environment

@@ -1,4 +1,5 @@
-// Looking the atlas up between texels: bilinear over the texels of one UV island only, since charts may lie side by side.
+// Looking the atlas up between texels: bilinear over the texels of one UV island only, since charts may lie side by side,
+// and of these over those that face where the point does, since a texel of a thin rim may lie beyond its edge.
 #ifndef CUTIS_ATLAS_LOOKUP_GLSL
 #define CUTIS_ATLAS_LOOKUP_GLSL
 
@@ -8,8 +9,12 @@ struct AtlasLookup {
     vec4 weight;  // of base + (0,0), (1,0), (0,1), (1,1)
 };
 
-// `islands` holds the number of each texel's island in its alpha. place: in texels.
-AtlasLookup atlasLookup(texture2D islands, vec2 place, float island) {
+// What a texel whose normal is at this cosine to the point's counts: all up to 45 degrees, hardly anything from 90 on.
+float facingShare(float cosine) { return max(smoothstep(0.0, 0.7, cosine), 1e-4); }
+
+// `islands` holds the number of each texel's island in its alpha; `normals` is as surface.comp writes it. place: in texels;
+// n: the smooth normal there.
+AtlasLookup atlasLookup(texture2D islands, texture2D normals, vec2 place, float island, vec3 n) {
     ivec2 last = textureSize(islands, 0) - 1;
     vec2 grid = place - 0.5;
     AtlasLookup at;
@@ -18,7 +23,8 @@ AtlasLookup atlasLookup(texture2D islands, vec2 place, float island) {
     vec4 weight = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = clamp(at.base + ivec2(i & 1, i >> 1), ivec2(0), last);
-        if (texelFetch(islands, texel, 0).a != island) weight[i] = 0.0;
+        float share = facingShare(dot(decodeOctahedral(texelFetch(normals, texel, 0).xy), n));
+        weight[i] *= texelFetch(islands, texel, 0).a == island ? share : 0.0;
     }
     float sum = weight.x + weight.y + weight.z + weight.w;
     at.weight = sum > 0.0 ? weight / sum : vec4(0.0);
