@@ -73,6 +73,7 @@ void openRig(Session& session, const fs::path& file) {
             replaceRig(document, rig, fs::absolute(file).lexically_normal());
         });
         session.edits.markSaved();
+        rememberFile(session, file);
         session.say("Opened " + file.string());
     });
 }
@@ -178,25 +179,6 @@ void showDialog(Session& session, Dialog dialog, const std::string& path) {
     session.dialog = dialog;
     session.dialogOpens = true;
     session.dialogPath = path;
-}
-
-void storeState(Session& session, std::size_t slot) {
-    if (!session.picture) return;
-    StoredState& state = session.compared[slot];
-    state = {true,  session.document(),       session.edits.version(),
-             false, session.picture->display, session.picture->linear,
-             true};
-    state.full = session.picture->full && session.picture->version == state.version;
-    session.say(slot == 0 ? "Stored as A" : "Stored as B");
-}
-
-void recallState(Session& session, std::size_t slot) {
-    const StoredState& state = session.compared[slot];
-    if (!state.stored) return;
-    session.edits.endGesture();
-    session.edits.apply(slot == 0 ? "Recall A" : "Recall B",
-                        [&](Document& document) { document = state.document; });
-    session.edits.endGesture();
 }
 
 fs::path autosaveFile() {

@@ -35,9 +35,9 @@ void undo(Session& session);
 void redo(Session& session);
 void showDialog(Session& session, Dialog dialog, const std::string& path = "");
 
-// Puts the current state and its picture aside (0: A, 1: B), and brings it back as an edit.
-void storeState(Session& session, std::size_t slot);
-void recallState(Session& session, std::size_t slot);
+// Puts a file at the head of the recent ones, here and in the cache folder for the next start.
+void rememberFile(Session& session, const std::filesystem::path& file);
+std::vector<std::filesystem::path> loadRecentFiles();
 
 // The rig that is not saved, kept in the cache folder in case this program ends badly.
 std::filesystem::path autosaveFile();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/viewer/actions.h"
+#include "app/viewer/comparing.h"
 
 namespace cutis::app {
 namespace {
@@ -39,6 +40,10 @@ void duplicate(Session& session) {
     session.selectedLight = copy;
 }
 
+void toggleCompare(Session& session, CompareMode mode) {
+    session.compareMode = session.compareMode == mode ? CompareMode::off : mode;
+}
+
 constexpr int kCtrl = GLFW_MOD_CONTROL, kShift = GLFW_MOD_SHIFT;
 
 constexpr HotKey kHotKeys[] = {
@@ -67,12 +72,15 @@ constexpr HotKey kHotKeys[] = {
     {GLFW_KEY_2, 0, "2", "Frame head and shoulders", [](Session& s) { frame(s, Framing::bust); }},
     {GLFW_KEY_3, 0, "3", "Frame the whole figure", [](Session& s) { frame(s, Framing::full); }},
     {GLFW_KEY_4, 0, "4", "Frame everyone", [](Session& s) { frame(s, Framing::group); }},
-    {GLFW_KEY_A, 0, "A", "Store as A", [](Session& s) { storeState(s, 0); }},
-    {GLFW_KEY_B, 0, "B", "Store as B", [](Session& s) { storeState(s, 1); }},
-    {GLFW_KEY_W, 0, "W", "Compare by a wipe",
-     [](Session& s) {
-         s.compareMode = s.compareMode == CompareMode::wipe ? CompareMode::off : CompareMode::wipe;
-     }},
+    {GLFW_KEY_A, 0, "A", "Store as A", [](Session& s) { storeCurrent(s, 0); }},
+    {GLFW_KEY_B, 0, "B", "Store as B", [](Session& s) { storeCurrent(s, 1); }},
+    {GLFW_KEY_W, 0, "W", "Compare by a wipe", [](Session& s) { toggleCompare(s, CompareMode::wipe); }},
+    {GLFW_KEY_D, 0, "D", "Difference of A and B",
+     [](Session& s) { toggleCompare(s, CompareMode::difference); }},
+    {GLFW_KEY_X, 0, "X", "Light mixer", [](Session& s) { s.mixer.shown = !s.mixer.shown; }},
+    {GLFW_KEY_L, 0, "L", "Place the chosen light by dragging",
+     [](Session& s) { s.placing = s.placing ? std::nullopt : std::optional(PlaceBy::highlight); }},
+    {GLFW_KEY_TAB, 0, "Tab", "Panels", [](Session& s) { s.showPanels = !s.showPanels; }},
     {GLFW_KEY_H, 0, "H", "Light handles", [](Session& s) { s.showHandles = !s.showHandles; }},
 };
 

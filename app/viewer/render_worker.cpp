@@ -3,15 +3,60 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <glm/gtc/matrix_transform.hpp>
 #include <utility>
-#include <vector>
 
 #include "app/viewer/document.h"
+#include "app/viewer/overlay.h"
 #include "renderer/scene/environment.h"
 
 namespace cutis::app {
+namespace {
 
-RenderWorker::RenderWorker(std::function<RenderFunction()> open, std::function<void()> wake)
+bool sameCamera(const Camera& a, const Camera& b) {
+    return a.world == b.world && a.yfov == b.yfov && a.orthographic == b.orthographic && a.xmag == b.xmag &&
+           a.ymag == b.ymag && a.aspect == b.aspect;
+}
+
+// All but the camera and the exposure.
+bool sameSubject(const RenderState& a, const RenderState& b) {
+    Rig rig = a.rig;
+    rig.exposure = b.rig.exposure;
+    return a.scene == b.scene && a.skin == b.skin && rig == b.rig && a.settings.width == b.settings.width &&
+           a.settings.height == b.settings.height && a.overlay == b.overlay;
+}
+
+// Turned by so little that samples fall elsewhere within a third of a pixel, which is how far apart they are:
+// the points of a Halton sequence in bases 2 and 3.
+Camera jittered(Camera camera, int index, int height) {
+    const auto radicalInverse = [](int i, int base) {
+        double value = 0, digit = 1;
+        for (; i > 0; i /= base) value += (digit /= base) * (i % base);
+        return value;
+    };
+    const double pixels = 1.0 / 3;
+    const double dx = pixels * (radicalInverse(index, 2) - 0.5),
+                 dy = pixels * (radicalInverse(index, 3) - 0.5);
+    if (camera.orthographic) {
+        const double metres = 2 * camera.ymag / height;
+        camera.world = camera.world * glm::translate(glm::dmat4(1), glm::dvec3(dx * metres, dy * metres, 0));
+        return camera;
+    }
+    const double angle = 2 * std::tan(camera.yfov / 2) / height;
+    camera.world = glm::rotate(camera.world, dx * angle, glm::dvec3(0, 1, 0));
+    camera.world = glm::rotate(camera.world, dy * angle, glm::dvec3(1, 0, 0));
+    return camera;
+}
+
+DisplayPicture displayOf(const RenderState& state, const RenderResult& rendered) {
+    const auto found = rendered.aovs.find(state.overlay);
+    return found == rendered.aovs.end() ? toDisplay(rendered.picture, state.rig.exposure)
+                                        : showAov(state.overlay, found->second, state.rig.exposure);
+}
+
+}  // namespace
+
+RenderWorker::RenderWorker(std::function<Renderers()> open, std::function<void()> wake)
     : open_(std::move(open)), wake_(std::move(wake)), thread_([this] { run(); }) {}
 
 RenderWorker::~RenderWorker() {
@@ -31,14 +76,34 @@ void RenderWorker::show(std::uint64_t version, RenderState state) {
     changed_.notify_all();
 }
 
+void RenderWorker::renderAside(AsideJob job) {
+    {
+        const std::lock_guard lock(mutex_);
+        std::erase_if(aside_, [&](const AsideJob& other) { return other.id == job.id; });
+        aside_.push_back(std::move(job));
+    }
+    changed_.notify_all();
+}
+
+void RenderWorker::forgetAside(int first, int last) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(aside_, [&](const AsideJob& job) { return job.id >= first && job.id < last; });
+}
+
 std::optional<WorkerResult> RenderWorker::takeResult() {
     const std::lock_guard lock(mutex_);
     return std::exchange(result_, std::nullopt);
 }
 
+std::vector<AsideResult> RenderWorker::takeAside() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(asideResults_, {});
+}
+
 WorkerStatus RenderWorker::status() const {
     const std::lock_guard lock(mutex_);
     WorkerStatus status = status_;
+    status.aside = aside_.size();
     if (status.busy) status.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
     return status;
 }
@@ -50,18 +115,23 @@ bool RenderWorker::stale() const {
 
 void RenderWorker::run() {
     for (;;) {
-        Job job;
+        std::optional<Job> job;
+        std::optional<AsideJob> aside;
         {
             std::unique_lock lock(mutex_);
-            changed_.wait(lock, [this] { return ended_ || next_.has_value(); });
+            changed_.wait(lock, [this] { return ended_ || next_.has_value() || !aside_.empty(); });
             if (ended_) break;
-            job = std::move(*next_);
-            next_.reset();
+            if (next_) {
+                job = std::exchange(next_, std::nullopt);
+            } else {
+                aside = std::move(aside_.front());
+                aside_.pop_front();
+            }
         }
         std::string error;
         try {
-            if (!renderer_) renderer_ = open_();
-            refine(job);
+            if (!renderers_.view) renderers_ = open_();
+            job ? refine(*job) : renderNextAside(*aside);
         } catch (const std::bad_alloc&) {
             error = "out of memory: the scene or the picture is too large for this machine";
         } catch (const std::exception& problem) {
@@ -70,37 +140,126 @@ void RenderWorker::run() {
         {
             const std::lock_guard lock(mutex_);
             status_.busy = false;
-            status_.error = error;
+            if (job || !error.empty()) status_.error = error;
+            if (aside && !error.empty()) asideResults_.push_back({aside->id, nullptr, {}});
         }
         wake_();
     }
-    renderer_ = nullptr;  // its device goes on the thread that it lived on
+    renderers_ = {};  // its device goes on the thread that it lived on
+}
+
+std::vector<double> RenderWorker::fractionsFor(const Job& job) const {
+    const bool moved = shown_ && sameSubject(shown_->state, job.state);
+    const double seconds = moved ? moveSeconds_ : changeSeconds_;
+    if (seconds >= 0 && seconds <= kInstant) return {1};
+    // A picture costs about as much as it has pixels.
+    double fraction = 0.25;
+    if (seconds >= 0) fraction = seconds / 4 <= kPreview ? 0.5 : seconds / 16 <= kPreview ? 0.25 : 0.125;
+    std::vector<double> fractions;
+    for (; fraction < 1; fraction *= 2) fractions.push_back(fraction);
+    fractions.push_back(1);
+    return fractions;
 }
 
 void RenderWorker::refine(const Job& job) {
+    if (showAgain(job)) return;
     applySkin(*job.state.scene, job.state.skin);
-    std::vector<double> fractions(std::begin(kFractions), std::end(kFractions));
-    if (fullSeconds_ >= 0 && fullSeconds_ <= kInstant) fractions.clear();
-    fractions.push_back(1);
-    for (const double fraction : fractions) {
+    const bool moved = shown_ && sameSubject(shown_->state, job.state);
+    for (const double fraction : fractionsFor(job)) {
         WorkerResult result = render(job, fraction);
-        if (result.full) fullSeconds_ = result.seconds;
-        {
-            const std::lock_guard lock(mutex_);
-            status_.busy = false;
-            status_.error.clear();
-            status_.device = result.stats.device;
-            result_ = std::move(result);
+        if (result.full) {
+            (moved ? moveSeconds_ : changeSeconds_) = result.seconds;
+            shown_ = job;
+            full_ = result;
+            full_.display = {};
+            accumulate(job, std::move(result));
+            return;
         }
-        wake_();
+        publish(std::move(result));
         if (stale()) return;
     }
+}
+
+// Another exposure of the picture that is there needs no rendering.
+bool RenderWorker::showAgain(const Job& job) {
+    if (!shown_ || !job.state.overlay.empty() || !sameSubject(shown_->state, job.state) ||
+        !sameCamera(shown_->state.camera, job.state.camera))
+        return false;
+    shown_ = job;
+    full_.version = job.version;
+    WorkerResult result = full_;
+    result.display = toDisplay(*result.linear, job.state.rig.exposure);
+    accumulate(job, std::move(result));
+    return true;
+}
+
+// Shows the picture, then the mean of ever more like it, until something else is asked for.
+void RenderWorker::accumulate(const Job& job, WorkerResult first) {
+    const std::shared_ptr<const Picture> picture = first.linear;
+    WorkerResult result = std::move(first);
+    result.refined = 1;
+    publish(result);
+    if (!job.state.overlay.empty()) return;
+    Picture sum = *picture;
+    for (int index = 1; index < kRefinements; ++index) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (ended_ || next_ || !aside_.empty()) return;
+        }
+        Job turned = job;
+        turned.state.camera = jittered(job.state.camera, index, job.state.settings.height);
+        const WorkerResult more = render(turned, 1);
+        if (more.linear->values.size() != sum.values.size()) return;
+        for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += more.linear->values[i];
+        result.refined = index + 1;
+        result.display = toDisplay(sum, job.state.rig.exposure - std::log2(result.refined));
+        publish(result);
+    }
+}
+
+void RenderWorker::publish(WorkerResult result) {
+    {
+        const std::lock_guard lock(mutex_);
+        status_.busy = false;
+        status_.error.clear();
+        status_.device = result.stats.device;
+        result_ = std::move(result);
+    }
+    wake_();
 }
 
 WorkerResult RenderWorker::render(const Job& job, double fraction) {
     RenderSettings settings = job.state.settings;
     settings.width = std::max(1, static_cast<int>(std::lround(settings.width * fraction)));
     settings.height = std::max(1, static_cast<int>(std::lround(settings.height * fraction)));
+    if (!job.state.overlay.empty()) settings.aovs = {job.state.overlay};
+    RenderResult rendered = draw(renderers_.view, job.state, settings);
+    WorkerResult result;
+    result.version = job.version;
+    result.full = fraction == 1;
+    result.display = displayOf(job.state, rendered);
+    result.linear = std::make_shared<const Picture>(std::move(rendered.picture));
+    result.stats = std::move(rendered.stats);
+    result.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+    return result;
+}
+
+void RenderWorker::renderNextAside(const AsideJob& job) {
+    applySkin(*job.state.scene, job.state.skin);
+    RenderResult rendered = draw(renderers_.aside, job.state, job.state.settings);
+    AsideResult result{job.id, nullptr, toDisplay(rendered.picture, job.state.rig.exposure)};
+    result.linear = std::make_shared<const Picture>(std::move(rendered.picture));
+    bool last = false;
+    {
+        const std::lock_guard lock(mutex_);
+        asideResults_.push_back(std::move(result));
+        last = aside_.empty();
+    }
+    if (last && renderers_.rest) renderers_.rest();
+}
+
+RenderResult RenderWorker::draw(const RenderFunction& renderer, const RenderState& state,
+                                const RenderSettings& settings) {
     {
         const std::lock_guard lock(mutex_);
         status_.busy = true;
@@ -109,19 +268,11 @@ WorkerResult RenderWorker::render(const Job& job, double fraction) {
         begun_ = Clock::now();
     }
     wake_();
-    const RenderInput input{.scene = job.state.scene.get(),
-                            .rig = job.state.rig,
-                            .environment = environmentOf(job.state.rig),
-                            .camera = job.state.camera};
-    RenderResult rendered = renderer_(input, settings);
-    WorkerResult result;
-    result.version = job.version;
-    result.full = fraction == 1;
-    result.display = toDisplay(rendered.picture, job.state.rig.exposure);
-    result.linear = std::make_shared<const Picture>(std::move(rendered.picture));
-    result.stats = std::move(rendered.stats);
-    result.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
-    return result;
+    const RenderInput input{.scene = state.scene.get(),
+                            .rig = state.rig,
+                            .environment = environmentOf(state.rig),
+                            .camera = state.camera};
+    return renderer(input, settings);
 }
 
 const Environment* RenderWorker::environmentOf(const Rig& rig) {

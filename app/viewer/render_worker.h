@@ -4,12 +4,14 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/viewer/display_picture.h"
 #include "renderer/frame/renderer.h"
@@ -23,22 +25,37 @@ struct RenderState {
     Rig rig;                                        // placements resolved, solo and mute applied
     Camera camera;
     RenderSettings settings;  // width and height of the full picture
+    std::string overlay;      // the AOV to show in place of the picture; empty: the picture
 };
 
 // A picture on its way to the screen.
 struct WorkerResult {
     std::uint64_t version = 0;  // of the state that it shows
-    bool full = false;          // at full resolution: nothing follows
+    bool full = false;          // at full resolution
+    int refined = 0;  // of a full picture: pictures, each with samples elsewhere, that it is the mean of
     DisplayPicture display;
-    std::shared_ptr<const Picture> linear;
+    std::shared_ptr<const Picture>
+        linear;  // what `cutis render` gives: of a full picture not the mean but the first
     RenderStats stats;
     double seconds = 0;  // wall time of this picture
+};
+
+// A picture beside the view: a thumbnail, the share of one light. Rendered when the view is up to date.
+struct AsideJob {
+    int id = 0;  // a newer job of the same id replaces an older one
+    RenderState state;
+};
+struct AsideResult {
+    int id = 0;
+    std::shared_ptr<const Picture> linear;  // null when it could not be rendered
+    DisplayPicture display;
 };
 
 struct WorkerStatus {
     bool busy = false;
     int width = 0, height = 0;  // of the picture under way
     double seconds = 0;         // since it was begun
+    std::size_t aside = 0;      // pictures beside the view that are still to come
     std::string device;         // empty until the first picture
     std::string error;          // why the last state could not be rendered; empty: it could
 };
@@ -46,27 +63,42 @@ struct WorkerStatus {
 // How a picture is made of a state; the environment is the state's, loaded.
 using RenderFunction = std::function<RenderResult(const RenderInput&, const RenderSettings&)>;
 
+// What renders the view, and what renders beside it so that the view's caches stay what they are.
+struct Renderers {
+    RenderFunction view, aside;
+    std::function<void()> rest;  // no picture beside the view is asked for: what they need can be freed
+    Renderers() = default;
+    // One for both.
+    template <class Function>
+    requires std::is_constructible_v<RenderFunction, Function> Renderers(Function both)
+        : view(both), aside(both) {}
+};
+
 class RenderWorker {
   public:
     // `open` runs on the worker's thread, once, and gives what renders (it owns the device). `wake` is
     // called, on the worker's thread, whenever there is news.
-    RenderWorker(std::function<RenderFunction()> open, std::function<void()> wake);
+    RenderWorker(std::function<Renderers()> open, std::function<void()> wake);
     // Waits for the picture under way.
     ~RenderWorker();
     RenderWorker(const RenderWorker&) = delete;
     RenderWorker& operator=(const RenderWorker&) = delete;
 
-    // Replaces whatever was asked for before. First comes a picture of a fraction of the size, then larger
-    // ones as long as no newer state arrives. Where the last full picture took no longer than kInstant, it
-    // comes at once.
+    // Replaces whatever was asked for before. Where full pictures have taken longer than kInstant, smaller
+    // ones come first, so small that one takes about kPreview; when nothing newer arrives, more full ones are
+    // averaged.
     void show(std::uint64_t version, RenderState state);
+    void renderAside(AsideJob job);
+    // Forgets jobs with an id in [first, last) that have not begun.
+    void forgetAside(int first, int last);
 
     // The newest picture that has not been taken yet.
     std::optional<WorkerResult> takeResult();
+    std::vector<AsideResult> takeAside();
     WorkerStatus status() const;
 
-    static constexpr double kInstant = 0.1;              // seconds
-    static constexpr double kFractions[] = {0.25, 0.5};  // of width and height, before the full picture
+    static constexpr double kInstant = 0.1, kPreview = 0.25;  // seconds
+    static constexpr int kRefinements = 8;                    // full pictures that are averaged
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -77,24 +109,36 @@ class RenderWorker {
 
     void run();
     void refine(const Job& job);
+    void accumulate(const Job& job, WorkerResult first);
+    bool showAgain(const Job& job);
+    void renderNextAside(const AsideJob& job);
+    void publish(WorkerResult result);
     bool stale() const;
+    std::vector<double> fractionsFor(const Job& job) const;
     WorkerResult render(const Job& job, double fraction);
+    RenderResult draw(const RenderFunction& renderer, const RenderState& state,
+                      const RenderSettings& settings);
     const Environment* environmentOf(const Rig& rig);
 
-    std::function<RenderFunction()> open_;
+    std::function<Renderers()> open_;
     std::function<void()> wake_;
 
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::optional<Job> next_;
+    std::deque<AsideJob> aside_;
     std::optional<WorkerResult> result_;
+    std::vector<AsideResult> asideResults_;
     WorkerStatus status_;
     Clock::time_point begun_;
     bool ended_ = false;
 
     // The worker's own.
-    RenderFunction renderer_;
-    double fullSeconds_ = -1;  // of the last full picture; negative: none yet
+    Renderers renderers_;
+    std::optional<Job> shown_;                      // the last job whose full picture is there
+    WorkerResult full_;                             // and that picture, without its bytes for the screen
+    double moveSeconds_ = -1, changeSeconds_ = -1;  // of the last full picture after a camera's move, and
+                                                    // after any other change; negative: none yet
     std::string environmentFile_;
     std::optional<Environment> environment_;
     std::thread thread_;  // last: starts when all else is there

@@ -30,6 +30,12 @@ double irradianceAtHead(const Light& light, const Scene& scene, const glm::dvec3
     return glm::dot(sum, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
+Camera cameraOf(const Session& session, const Document& document) {
+    const View& view = document.view;
+    return view.camera.empty() ? toCamera(view.orbit, session.aspect())
+                               : cameraFor(*session.geometry, view.camera, session.aspect());
+}
+
 }  // namespace
 
 void Session::complain(const std::string& text) {
@@ -38,10 +44,26 @@ void Session::complain(const std::string& text) {
     std::fprintf(stderr, "cutis: %s\n", text.c_str());
 }
 
+bool MixerStrip::complete() const {
+    return !contributions.empty() && std::all_of(contributions.begin(), contributions.end(),
+                                                 [](const auto& own) { return own.picture != nullptr; });
+}
+
 Camera currentCamera(const Session& session) {
-    const View& view = session.document().view;
-    return view.camera.empty() ? toCamera(view.orbit, session.aspect())
-                               : cameraFor(*session.geometry, view.camera, session.aspect());
+    return cameraOf(session, session.document());
+}
+
+RenderState stateFor(const Session& session, const Document& document) {
+    RenderState state;
+    state.scene = session.scene;
+    state.skin = document.skin;
+    state.rig = effectiveRig(document);
+    state.settings = session.request.settings;
+    state.settings.width = session.view.width;
+    state.settings.height = session.view.height;
+    state.camera = cameraOf(session, document);
+    resolvePlacements(state.rig, *session.geometry);
+    return state;
 }
 
 void editLight(Session& session, const std::string& label, const std::function<void(Light&)>& change) {

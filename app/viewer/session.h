@@ -7,28 +7,54 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "app/options.h"
 #include "app/viewer/edits.h"
+#include "app/viewer/mixer.h"
+#include "app/viewer/place_by_light.h"
 #include "app/viewer/render_worker.h"
 #include "app/viewer/window.h"
 
 namespace cutis::app {
 
-// A state that was put aside, with the newest picture of it.
+// Numbers of pictures in the window, and of what is rendered beside the view.
+inline constexpr int kRoomPicture = -1;  // one dark pixel: what is about the view
+inline constexpr int kLivePicture = 0, kPictureA = 1, kPictureB = 2, kDifferencePicture = 3, kMixPicture = 4;
+inline constexpr int kPresetPictures = 100, kEnvironmentPictures = 1000, kLightPictures = 10000;  // and on
+
+// A state that was put aside, with its full picture once that is rendered.
 struct StoredState {
     bool stored = false;
+    std::string name;
     Document document;
-    std::uint64_t version = 0;  // of the edit list: a better picture of this version replaces the one here
-    bool full = false;          // the picture is the full one
-    DisplayPicture display;
     std::shared_ptr<const Picture> linear;
-    bool changed = false;  // the window does not have the picture yet
 };
 
-enum class CompareMode { off, wipe, sideBySide, blink };
+enum class CompareMode { off, wipe, sideBySide, blink, difference };
+enum class DifferenceMap { relative, perceived };
+
+// What the comparison of the two stored states found. As `cutis compare` has it.
+struct ComparedFigures {
+    const Picture *a = nullptr, *b = nullptr;  // of which pictures; not dereferenced
+    double relativeL2 = 0, p99 = 0, flip = 0, lightRatio = 0;
+    Picture map, flipMap;
+    std::string problem;
+};
+
+// The light mixer: pictures of each light alone, and what of the document they were made for.
+struct MixerStrip {
+    bool shown = false;
+    std::vector<Contribution> contributions;
+    View view;
+    std::vector<std::optional<SkinMaterial>> skin;
+    std::shared_ptr<Scene> scene;
+    int width = 0, height = 0;
+    std::uint64_t mixedVersion = 0;  // of the edit list, for which kMixPicture is
+    bool complete() const;           // all pictures are there
+};
 
 enum class Dialog { none, open, saveRig, savePicture, unsaved };
 
@@ -45,6 +71,7 @@ struct Session {
     std::uint64_t derivedVersion = 0;    // of the edit list, when these were computed
 
     int selectedLight = 0, selectedMaterial = -1, selectedCharacter = -1;  // -1: none, everyone
+    PixelRect room;  // between the panels: the view and bars about it
     PixelRect view;  // where the picture is, in pixels of the window
 
     std::optional<WorkerResult> picture;  // newest
@@ -56,12 +83,27 @@ struct Session {
 
     std::array<StoredState, 2> compared;  // A, B
     CompareMode compareMode = CompareMode::off;
+    DifferenceMap differenceMap = DifferenceMap::relative;
+    std::optional<ComparedFigures> figures;
+    std::future<ComparedFigures> comparing;
     double wipe = 0.5;  // of the picture's width
+
+    MixerStrip mixer;
+    std::string overlay;                        // the AOV that is shown; empty: the picture
+    std::optional<PlaceBy> placing;             // dragging in the picture places the chosen light
+    double pictureAspect = 0;                   // width over height; 0: fills the view
+    std::vector<std::filesystem::path> recent;  // opened last, newest first
+
+    // Passed on by the viewer in each frame.
+    std::vector<std::pair<int, DisplayPicture>> uploads;  // to the window
+    std::vector<PicturePart> thumbnails;                  // in panels, of this frame
+    std::vector<AsideJob> asideJobs;
+    std::set<int> pictures;  // numbers that the window has
 
     Dialog dialog = Dialog::none;
     bool dialogOpens = false;  // in the next frame
     std::string dialogPath;
-    bool showHelp = false, showHandles = true;
+    bool showHelp = false, showHandles = true, showPanels = true;
 
     std::string message;  // of the last action
     bool messageIsError = false;
@@ -90,6 +132,9 @@ Camera currentCamera(const Session& session);
 void editLight(Session& session, const std::string& label, const std::function<void(Light&)>& change);
 // Changes the view: a camera of the file becomes one moved by hand first.
 void editView(Session& session, const std::string& label, const std::function<void(OrbitCamera&)>& change);
+// What the worker needs for a picture of that document in the current scene. Throws Error: no such camera, no
+// such subject of a light.
+RenderState stateFor(const Session& session, const Document& document);
 // Brings geometry and headIrradiance up to the document.
 void updateDerived(Session& session);
 

@@ -1,5 +1,6 @@
 #include "app/viewer/view_input.h"
 
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 namespace cutis::app {
 namespace {
 
-enum class Drag { none, view, handle, wipe };
+enum class Drag { none, view, handle, wipe, place };
 
 ImVec2 onScreen(const Session& session, const glm::dvec3& point) {
     return {static_cast<float>(session.view.x + point.x * session.view.width),
@@ -90,24 +91,101 @@ void drawWipe(const Session& session, float x) {
     draw.AddText({x + 8 * scale, top + 8 * scale}, accentColor(), session.compared[1].stored ? "B" : "Now");
 }
 
-void framePersonAt(Session& session, const Camera& camera, const ImVec2& mouse) {
+std::optional<Hit> pickAt(const Session& session, const Camera& camera, const ImVec2& mouse) {
+    const double x = (mouse.x - session.view.x) / session.view.width;
+    const double y = (mouse.y - session.view.y) / session.view.height;
+    return pick(*session.geometry, rayThrough(camera, session.aspect(), x, y));
+}
+
+// What dragging in the picture places the chosen light by: as chosen above the picture, or by the keys held.
+std::optional<PlaceBy> placedBy(const Session& session) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyCtrl) return io.KeyShift ? PlaceBy::shadowEdge : PlaceBy::highlight;
+    return session.placing;
+}
+
+void placeAt(Session& session, const Camera& camera, const ImVec2& mouse, PlaceBy by) {
+    const std::optional<Hit> hit = pickAt(session, camera, mouse);
+    if (!hit || !session.hasLight()) return;
+    const glm::dvec3 axis(camera.world[2]);
+    constexpr double kFar = 1e6;  // metres: an orthographic camera sees from there
+    const glm::dvec3 eye = camera.orthographic ? hit->position + kFar * axis : glm::dvec3(camera.world[3]);
+    glm::dvec3 subject = session.headCentre;
+    if (session.light().place)
+        subject = headBounds(*session.geometry, session.light().place->subject).centre();
+    editLight(session, "Placement", [&](Light& light) { placeByLight(light, by, *hit, eye, subject); });
+    const glm::dvec3 seen = project(camera, session.aspect(), hit->position);
+    ImGui::GetBackgroundDrawList()->AddCircle(onScreen(session, seen), 5 * float(session.uiScale),
+                                              accentColor(), 0, float(session.uiScale));
+}
+
+// The character that the mouse is on, else the one whose head is the nearest.
+int characterAt(const Session& session, const Camera& camera, const ImVec2& mouse) {
+    const Scene& scene = *session.geometry;
+    if (const std::optional<Hit> hit = pickAt(session, camera, mouse)) {
+        const int character = scene.nodeCharacter[static_cast<std::size_t>(hit->node)];
+        if (character >= 0) return character;
+    }
     int nearest = -1;
     float best = std::numeric_limits<float>::max();
-    const auto& characters = session.geometry->characters;
-    for (std::size_t i = 0; i < characters.size(); ++i) {
-        const Bounds head = headBounds(*session.geometry, characters[i].name);
+    for (std::size_t i = 0; i < scene.characters.size(); ++i) {
+        const Bounds head = headBounds(scene, scene.characters[i].name);
         const glm::dvec3 seen = project(camera, session.aspect(), head.centre());
         if (seen.z <= 0 || distance(onScreen(session, seen), mouse) >= best) continue;
         best = distance(onScreen(session, seen), mouse);
         nearest = static_cast<int>(i);
     }
+    return nearest;
+}
+
+void framePersonAt(Session& session, const Camera& camera, const ImVec2& mouse) {
+    const int nearest = characterAt(session, camera, mouse);
     session.selectedCharacter = nearest;
     editView(session, "Frame Bust", [&](OrbitCamera& orbit) {
         frameSubject(orbit, *session.geometry, nearest, Framing::bust, session.aspect());
     });
 }
 
+// From now on the view turns about what is under the mouse, which moves to its middle.
+void turnRoundPointAt(Session& session, const Camera& camera, const ImVec2& mouse) {
+    const std::optional<Hit> hit = pickAt(session, camera, mouse);
+    if (!hit) return;
+    editView(session, "Look at a point", [&](OrbitCamera& orbit) { orbit.target = hit->position; });
+}
+
+// A drag to the right or up by half the view's height doubles.
+double dragFactor(const Session& session, const ImVec2& by) {
+    return std::exp2(2.0 * (by.x - by.y) / std::max(session.view.height, 1));
+}
+
+void dragDistance(Session& session, double factor) {
+    editLight(session, "Distance", [&](Light& light) {
+        if (light.place) {
+            light.place->distance = std::clamp(light.place->distance * factor, 0.05, 100.0);
+        } else if (light.type != LightType::directional) {
+            light.position = session.headCentre + factor * (light.position - session.headCentre);
+        }
+    });
+}
+
+// The cone of a spot, the size of any other light that has one.
+void dragSize(Session& session, double factor) {
+    editLight(session, "Size", [&](Light& light) {
+        if (light.type == LightType::spot) {
+            light.outerConeAngle = std::clamp(light.outerConeAngle * factor, 0.01, glm::radians(89.0));
+            light.innerConeAngle = std::min(light.innerConeAngle * factor, 0.98 * light.outerConeAngle);
+        } else if (light.type == LightType::rect) {
+            light.size = glm::clamp(light.size * factor, 0.01, 20.0);
+        } else if (light.type == LightType::point) {
+            light.radius = std::clamp(std::max(light.radius, 0.005) * factor, 0.0, 5.0);
+        }
+    });
+}
+
 void dragHandle(Session& session, const Camera& camera, const ImVec2& by) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyShift) return dragDistance(session, dragFactor(session, by));
+    if (io.KeyAlt) return dragSize(session, dragFactor(session, by));
     // Sideways in the picture is the azimuth as it is seen: a light behind the head turns the other way.
     Light placed = session.light();
     placeLight(placed, session.headCentre);
@@ -145,7 +223,8 @@ void handleView(Session& session) {
     if (inside && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && hovered < 0) {
         framePersonAt(session, camera, mouse);
     } else if (inside && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-        drag = hovered >= 0 ? Drag::handle : onWipe ? Drag::wipe : Drag::view;
+        const bool places = placedBy(session).has_value() && session.hasLight();
+        drag = hovered >= 0 ? Drag::handle : onWipe ? Drag::wipe : places ? Drag::place : Drag::view;
         if (hovered >= 0) session.selectedLight = hovered;
     }
     static bool panning = false;
@@ -161,12 +240,17 @@ void handleView(Session& session) {
     if (moved && drag == Drag::view)
         editView(session, "Turn the view", [&](OrbitCamera& c) { orbitBy(c, by.x, by.y, height); });
     if (moved && drag == Drag::handle && session.hasLight()) dragHandle(session, camera, by);
+    if (drag == Drag::place && (moved || ImGui::IsMouseClicked(ImGuiMouseButton_Left)))
+        placeAt(session, camera, mouse, placedBy(session).value_or(PlaceBy::highlight));
     if (moved && drag == Drag::wipe)
         session.wipe = std::clamp((mouse.x - session.view.x) / double(session.view.width), 0.0, 1.0);
     if (moved && panning)
         editView(session, "Move the view", [&](OrbitCamera& c) { panBy(c, by.x, by.y, height); });
     if (inside && io.MouseWheel != 0)
         editView(session, "Near the view", [&](OrbitCamera& c) { dollyBy(c, io.MouseWheel); });
+
+    if (inside && !io.WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_F, false))
+        turnRoundPointAt(session, camera, mouse);
 
     drawHandles(session, handles, hovered);
     if (wiping) drawWipe(session, wipeX);

@@ -3,15 +3,19 @@
 #include <imgui.h>
 
 #include <chrono>
-#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "app/viewer/actions.h"
+#include "app/viewer/comparing.h"
 #include "app/viewer/hot_keys.h"
+#include "app/viewer/mixing.h"
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/scene_loader.h"
+#include "app/viewer/thumbnails.h"
 #include "app/viewer/view_input.h"
+#include "app/viewer/view_layout.h"
 #include "app/viewer/window.h"
 #include "renderer/core/error.h"
 #include "renderer/gpu/device.h"
@@ -25,14 +29,13 @@ using Clock = std::chrono::steady_clock;
 // Sleep between frames, in seconds: while something moves, while a clock is shown, and with nothing to do.
 constexpr double kActive = 0.016, kWorking = 0.1, kIdle = 0.5;
 constexpr double kAutosavePeriod = 5;  // seconds
-constexpr double kBlinkPeriod = 0.7;   // seconds that each of two pictures is shown
-constexpr float kPanelWidth = 300;     // at a scale of 1
+constexpr double kMixPause = 0.8;      // seconds without an edit before what was mixed is rendered
 
 std::string titleOf(const std::string& scene) {
     return "cutis - " + std::filesystem::path(scene).filename().string();
 }
 
-RenderFunction openRenderer(const std::string& select) {
+Renderers openRenderers(const std::string& select) {
     gpu::DeviceOptions options;
     options.select = select;
     auto device = std::make_shared<gpu::Device>(options);
@@ -47,9 +50,12 @@ class Viewer {
         : window_({titleOf(request.operands[0]), request.settings.width, request.settings.height,
                    request.uiScale, request.device}),
           loader_(Window::wake),
-          worker_([device = request.device] { return openRenderer(device); }, Window::wake) {
+          environmentThumbnails_(Window::wake),
+          worker_([device = request.device] { return openRenderers(device); }, Window::wake) {
         session_.request = request;
         session_.uiScale = window_.uiScale();
+        session_.uploads.emplace_back(kRoomPicture, DisplayPicture{1, 1, {9, 9, 10, 255}});
+        session_.recent = loadRecentFiles();
         session_.recoverable = keepAutosave();
         if (session_.recoverable)
             session_.say("A rig that was not saved is kept: File, Recover rig brings it back");
@@ -73,7 +79,8 @@ class Viewer {
     double pause() const {
         if (ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || frames_ > 0) return kActive;
         const bool working = loader_.loading() || session_.worker.busy || session_.writing.valid() ||
-                             session_.compareMode == CompareMode::blink;
+                             session_.compareMode == CompareMode::blink || session_.comparing.valid() ||
+                             waits_;
         return working ? kWorking : kIdle;
     }
 
@@ -106,17 +113,27 @@ class Viewer {
         session_.loadingSeconds = loader_.loading() ? loader_.seconds() : 0;
         session_.worker = worker_.status();
         if (std::optional<WorkerResult> result = worker_.takeResult()) {
-            window_.setPicture(PictureSlot::live, result->display);
+            session_.uploads.emplace_back(kLivePicture, std::move(result->display));
             session_.picture = std::move(*result);
-            refreshStored();
         }
-        for (std::size_t slot = 0; slot < session_.compared.size(); ++slot) {
-            StoredState& state = session_.compared[slot];
-            if (!state.changed) continue;
-            window_.setPicture(slot == 0 ? PictureSlot::a : PictureSlot::b, state.display);
-            state.changed = false;
-        }
+        for (AsideResult& result : worker_.takeAside()) takeAside(std::move(result));
+        for (auto& [place, picture] : environmentThumbnails_.take())
+            session_.uploads.emplace_back(kEnvironmentPictures + place, std::move(picture));
+        updateMixer(session_);
+        updateDifference(session_);
         continueSaving(session_);
+        for (const auto& [number, picture] : std::exchange(session_.uploads, {})) {
+            window_.setPicture(number, picture);
+            session_.pictures.insert(number);
+        }
+        for (AsideJob& job : std::exchange(session_.asideJobs, {})) worker_.renderAside(std::move(job));
+    }
+
+    void takeAside(AsideResult result) {
+        if (result.id == kPictureA || result.id == kPictureB)
+            return takeStatePicture(session_, std::move(result));
+        if (result.id >= kLightPictures) return takeLightPicture(session_, std::move(result));
+        if (result.linear) session_.uploads.emplace_back(result.id, std::move(result.display));
     }
 
     void takeScene(LoadedScene loaded) {
@@ -133,6 +150,13 @@ class Viewer {
         session_.derivedVersion = 0;
         session_.selectedMaterial = session_.selectedCharacter = -1;
         shownKey_ = {};
+        worker_.forgetAside(0, std::numeric_limits<int>::max());
+        session_.compared = {};
+        session_.mixer.contributions.clear();
+        // Cameras of a file are made for the usual picture; a view that is framed here fills what room there
+        // is.
+        if (opens_) session_.pictureAspect = loaded.geometry->cameras.empty() ? 0 : 16.0 / 9;
+        if (opens_ && loaded.name != "default") rememberFile(session_, loaded.name);
         if (opens_ && session_.document().scene.empty()) {
             session_.edits.reset(loaded.document);
         } else if (opens_) {
@@ -143,17 +167,6 @@ class Viewer {
             session_.edits.markSaved();
         }
         window_.setTitle(titleOf(loaded.name));
-    }
-
-    // A picture that was stored as a preview becomes the full one when that is there.
-    void refreshStored() {
-        for (StoredState& state : session_.compared) {
-            if (!state.stored || state.full || state.version != session_.picture->version) continue;
-            state.display = session_.picture->display;
-            state.linear = session_.picture->linear;
-            state.full = session_.picture->full;
-            state.changed = true;
-        }
     }
 
     void takeInput() {
@@ -172,65 +185,71 @@ class Viewer {
     void drawFrame() {
         if (frames_ > 0) --frames_;
         updateDerived(session_);
-        const float scale = static_cast<float>(session_.uiScale);
+        session_.thumbnails.clear();
+        const ImGuiIO& io = ImGui::GetIO();
         const float top = drawMenuBar(session_);
-        const float bottom = ImGui::GetFrameHeight() + 4 * scale;
-        layOut(top, bottom);
+        const float bottom = ImGui::GetFrameHeight() + 4 * static_cast<float>(session_.uiScale);
+        const Layout layout = layOut(session_, io.DisplaySize.x, io.DisplaySize.y, top, bottom);
         if (session_.geometry) {
-            drawSide("##rig", 0, top, bottom, [this] {
-                drawRigPanel(session_);
-                drawLightPanel(session_);
-            });
-            drawSide("##look", ImGui::GetIO().DisplaySize.x - panelWidth(), top, bottom,
-                     [this] { drawTabs(); });
+            drawViewBar(session_, layout.bar);
+            if (session_.mixer.shown) drawMixerStrip(session_, layout.mixer);
+            if (session_.showPanels) {
+                drawSide("##rig", 0, layout, [this] { drawLeft(); });
+                drawSide("##look", io.DisplaySize.x - layout.side, layout, [this] { drawRight(); });
+            }
         }
         drawStatusBar(session_, bottom);
         drawHelp(session_);
         drawDialogs(session_);
         handleView(session_);
         drawLoading();
-        const std::vector<PicturePart> parts = pictureParts();
+        const std::vector<PicturePart> parts = pictureParts(session_);
         window_.endFrame(parts);
-        const ImGuiIO& io = ImGui::GetIO();
         if (!ImGui::IsAnyItemActive() && !ImGui::IsAnyMouseDown() && io.MouseWheel == 0)
             session_.edits.endGesture();
     }
 
-    float panelWidth() const { return kPanelWidth * static_cast<float>(session_.uiScale); }
-
-    void layOut(float top, float bottom) {
-        const ImVec2 display = ImGui::GetIO().DisplaySize;
-        const float side = panelWidth();
-        session_.view = {static_cast<int>(side), static_cast<int>(top),
-                         static_cast<int>(display.x - 2 * side), static_cast<int>(display.y - top - bottom)};
-    }
-
     template <class Draw>
-    void drawSide(const char* name, float x, float top, float bottom, const Draw& draw) {
-        ImGui::SetNextWindowPos({x, top});
-        ImGui::SetNextWindowSize({panelWidth(), ImGui::GetIO().DisplaySize.y - top - bottom});
+    void drawSide(const char* name, float x, const Layout& layout, const Draw& draw) {
+        ImGui::SetNextWindowPos({x, layout.top});
+        ImGui::SetNextWindowSize({layout.side, ImGui::GetIO().DisplaySize.y - layout.top - layout.bottom});
         ImGui::Begin(name, nullptr,
                      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                          ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                         ImGuiWindowFlags_NoBringToFrontOnFocus);
+                         ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoBackground);
         draw();
         ImGui::End();
     }
 
-    void drawTabs() {
+    template <class Draw>
+    static void drawTab(const char* name, const Draw& draw) {
+        if (!ImGui::BeginTabItem(name)) return;
+        ImGui::BeginChild(name);
+        draw();
+        ImGui::EndChild();
+        ImGui::EndTabItem();
+    }
+
+    void drawLeft() {
+        if (!ImGui::BeginTabBar("rig")) return;
+        drawTab("Rig", [this] {
+            drawRigPanel(session_);
+            drawLightPanel(session_);
+        });
+        drawTab("Presets", [this] { drawPresetPanel(session_); });
+        ImGui::EndTabBar();
+    }
+
+    void drawRight() {
         if (!ImGui::BeginTabBar("look")) return;
-        const auto tab = [this](const char* name, const auto& draw) {
-            if (!ImGui::BeginTabItem(name)) return;
-            draw();
-            ImGui::EndTabItem();
-        };
-        tab("View", [this] {
-            drawCameraPanel(session_);
+        drawTab("View", [this] { drawCameraPanel(session_); });
+        drawTab("HDRI", [this] {
+            environmentThumbnails_.start();
             drawEnvironmentPanel(session_);
         });
-        tab("Skin", [this] { drawSkinPanel(session_); });
-        tab("Compare", [this] { drawComparePanel(session_); });
-        tab("Plan", [this] { drawPlanPanel(session_); });
+        drawTab("Skin", [this] { drawSkinPanel(session_); });
+        drawTab("Compare", [this] { drawComparePanel(session_); });
+        drawTab("Plan", [this] { drawPlanPanel(session_); });
         ImGui::EndTabBar();
     }
 
@@ -248,55 +267,30 @@ class Viewer {
         ImGui::End();
     }
 
-    // Which pictures lie where behind the interface.
-    std::vector<PicturePart> pictureParts() const {
-        const PixelRect& view = session_.view;
-        const bool comparing = session_.compareMode != CompareMode::off && session_.compared[0].stored;
-        if (!comparing) return {{PictureSlot::live, view, view}};
-        const PictureSlot other = session_.compared[1].stored ? PictureSlot::b : PictureSlot::live;
-        PixelRect left = view, right = view;
-        if (session_.compareMode == CompareMode::blink) {
-            const double time = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-            const bool first = std::fmod(time, 2 * kBlinkPeriod) < kBlinkPeriod;
-            return {{first ? PictureSlot::a : other, view, view}};
-        }
-        if (session_.compareMode == CompareMode::sideBySide) {
-            // Both whole, at half the size.
-            left.width = right.width = view.width / 2;
-            left.height = right.height = view.height / 2;
-            left.y = right.y = view.y + view.height / 4;
-            right.x += left.width;
-            return {{PictureSlot::a, left, left}, {other, right, right}};
-        }
-        left.width = static_cast<int>(session_.wipe * view.width);
-        right.x += left.width;
-        right.width -= left.width;
-        return {{PictureSlot::a, view, left}, {other, view, right}};
-    }
-
     // Hands the newest state to the worker when it is not what was handed over last.
     void showNewest() {
         if (!session_.scene || session_.view.width <= 0 || session_.view.height <= 0 ||
             session_.document().scene != session_.openedScene)
             return;
-        const Key key{session_.edits.version(), session_.view.width, session_.view.height, true};
+        const Key key{session_.edits.version(), session_.view.width, session_.view.height, session_.overlay,
+                      true};
+        waits_ = false;
         if (key == shownKey_) return;
+        if (key.version != seenVersion_) changed_ = Clock::now();
+        seenVersion_ = key.version;
+        // While the mixer shows what is edited, nothing needs to be rendered until the faders rest.
+        waits_ = mixShows(session_) && Clock::now() - changed_ < std::chrono::duration<double>(kMixPause);
+        if (waits_) return;
         shownKey_ = key;
         updateDerived(session_);
         RenderState state;
-        state.scene = session_.scene;
-        state.skin = session_.document().skin;
-        state.rig = effectiveRig(session_.document());
-        state.settings = session_.request.settings;
-        state.settings.width = session_.view.width;
-        state.settings.height = session_.view.height;
         try {
-            state.camera = currentCamera(session_);
-            resolvePlacements(state.rig, *session_.geometry);
+            state = stateFor(session_, session_.document());
         } catch (const Error& error) {
             session_.complain(error.what());
             return;
         }
+        state.overlay = session_.overlay;
         worker_.show(key.version, std::move(state));
     }
 
@@ -311,6 +305,7 @@ class Viewer {
     struct Key {
         std::uint64_t version = 0;
         int width = 0, height = 0;
+        std::string overlay;
         bool set = false;
         bool operator==(const Key&) const = default;
     };
@@ -324,6 +319,10 @@ class Viewer {
     int frames_ = 0;  // to draw without a pause: ImGui answers a key in the frame after
     Clock::time_point autosaved_ = Clock::now();
     std::uint64_t autosavedVersion_ = 0;
+    Clock::time_point changed_;  // the document, last
+    std::uint64_t seenVersion_ = 0;
+    bool waits_ = false;  // the mixer shows a change that is not rendered yet
+    EnvironmentThumbnails environmentThumbnails_;
     RenderWorker worker_;  // last: it ends first
 };
 

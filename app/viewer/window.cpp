@@ -135,12 +135,8 @@ void Window::endFrame(std::span<const PicturePart> parts) {
     graphics_->draw(parts);
 }
 
-void Window::setPicture(PictureSlot slot, const DisplayPicture& picture) {
-    graphics_->setPicture(slot, picture);
-}
-
-bool Window::hasPicture(PictureSlot slot) const {
-    return static_cast<bool>(graphics_->shown[static_cast<std::size_t>(slot)].image);
+void Window::setPicture(int number, const DisplayPicture& picture) {
+    graphics_->setPicture(number, picture);
 }
 
 void Window::hide() {

@@ -2,7 +2,6 @@
 // thread.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -19,10 +18,6 @@ class Device;
 
 namespace cutis::app {
 
-// Pictures that a window keeps for showing.
-enum class PictureSlot { live, a, b };
-inline constexpr std::size_t kPictureSlots = 3;
-
 // A rectangle in pixels, from the top left.
 struct PixelRect {
     int x = 0, y = 0, width = 0, height = 0;
@@ -33,7 +28,7 @@ struct PixelRect {
 
 // The part of a picture that lies within `clip`, when all of it fills `whole`.
 struct PicturePart {
-    PictureSlot slot = PictureSlot::live;
+    int picture = 0;  // as setPicture named it
     PixelRect whole, clip;
 };
 
@@ -67,8 +62,8 @@ class Window {
     // Draws the pictures and then the interface on top.
     void endFrame(std::span<const PicturePart> parts);
 
-    void setPicture(PictureSlot slot, const DisplayPicture& picture);
-    bool hasPicture(PictureSlot slot) const;
+    // Keeps the picture under that number, in place of what was there.
+    void setPicture(int number, const DisplayPicture& picture);
 
     void hide();
     void setTitle(const std::string& title);

@@ -17,7 +17,9 @@
 namespace cutis::app {
 namespace {
 
-constexpr VkClearColorValue kBackground{{0.055f, 0.057f, 0.062f, 1}};
+// Of the panels, which are transparent so that pictures in them lie under the interface; the view paints its
+// own.
+constexpr VkClearColorValue kBackground{{0.115f, 0.116f, 0.118f, 1}};
 constexpr VkImageSubresourceRange kWhole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
 
 bool canPresent(const gpu::Device& device) {
@@ -122,7 +124,7 @@ Window::Graphics::Graphics(GLFWwindow* window, const WindowOptions& options) {
 
 Window::Graphics::~Graphics() {
     closeInterface();
-    for (Shown& slot : shown) slot = {};
+    shown.clear();
     vkDestroySemaphore(device->handle(), acquired_, nullptr);
     vkDestroyFence(device->handle(), done_, nullptr);
     vkDestroyCommandPool(device->handle(), pool_, nullptr);
@@ -173,8 +175,8 @@ void Window::Graphics::waitForFrame() {
     gpu::check(vkWaitForFences(device->handle(), 1, &done_, VK_TRUE, UINT64_MAX), "drawing the window");
 }
 
-void Window::Graphics::setPicture(PictureSlot slot, const DisplayPicture& picture) {
-    Shown& target = shown[static_cast<std::size_t>(slot)];
+void Window::Graphics::setPicture(int number, const DisplayPicture& picture) {
+    Shown& target = shown[number];
     waitForFrame();  // which may still read what is replaced
     const auto width = static_cast<std::uint32_t>(picture.width);
     const auto height = static_cast<std::uint32_t>(picture.height);
@@ -194,8 +196,8 @@ void Window::Graphics::setPicture(PictureSlot slot, const DisplayPicture& pictur
     target.uploaded = false;
 }
 
-void Window::Graphics::record(VkCommandBuffer commands, std::span<const PicturePart> parts) {
-    for (Shown& slot : shown) {
+void Window::Graphics::upload(VkCommandBuffer commands) {
+    for (auto& [number, slot] : shown) {
         if (!slot.image || slot.uploaded) continue;
         moveTo(commands, slot.image.handle(), VK_IMAGE_LAYOUT_UNDEFINED,
                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -208,14 +210,19 @@ void Window::Graphics::record(VkCommandBuffer commands, std::span<const PictureP
                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         slot.uploaded = true;
     }
+}
+
+void Window::Graphics::record(VkCommandBuffer commands, std::span<const PicturePart> parts) {
+    upload(commands);
     const VkImage target = swapchain->image();
     moveTo(commands, target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     vkCmdClearColorImage(commands, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &kBackground, 1, &kWhole);
-    // The clear must be over before pictures are copied onto it.
-    moveTo(commands, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     for (const PicturePart& part : parts) {
-        const Shown& slot = shown[static_cast<std::size_t>(part.slot)];
-        if (slot.image) copyPart(commands, slot.image, target, swapchain->extent(), part);
+        const auto found = shown.find(part.picture);
+        if (found == shown.end()) continue;
+        // What was put there before must be there: pictures may lie over each other.
+        moveTo(commands, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        copyPart(commands, found->second.image, target, swapchain->extent(), part);
     }
     moveTo(commands, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     VkRenderPassBeginInfo pass{};

@@ -3,7 +3,7 @@
 
 #include <vulkan/vulkan.h>
 
-#include <array>
+#include <map>
 #include <memory>
 #include <span>
 
@@ -26,7 +26,7 @@ struct Window::Graphics {
     // Dear ImGui's own resources, once its context and fonts are there.
     void openInterface();
     void closeInterface();
-    void setPicture(PictureSlot slot, const DisplayPicture& picture);
+    void setPicture(int number, const DisplayPicture& picture);
     // Draws ImGui's draw data over the pictures and shows the result.
     void draw(std::span<const PicturePart> parts);
 
@@ -38,11 +38,12 @@ struct Window::Graphics {
 
     std::unique_ptr<gpu::Device> device;
     std::unique_ptr<Swapchain> swapchain;
-    std::array<Shown, kPictureSlots> shown;
+    std::map<int, Shown> shown;  // by number
     bool outOfDate = true;
 
   private:
     void record(VkCommandBuffer commands, std::span<const PicturePart> parts);
+    void upload(VkCommandBuffer commands);
     void submit(VkCommandBuffer commands, VkSemaphore wait, VkSemaphore signal);
     void waitForFrame();
 

@@ -1,10 +1,11 @@
 // The worker with a renderer that only notes what it was asked for.
+#include "app/viewer/render_worker.h"
+
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <semaphore>
 
-#include "app/viewer/render_worker.h"
 #include "renderer/core/error.h"
 #include "tests/cli/program.h"
 
@@ -45,24 +46,116 @@ std::vector<WorkerResult> resultsUntil(RenderWorker& worker, std::uint64_t versi
 
 TEST(RenderWorker, RefinesFromAQuarterToTheFullPicture) {
     std::vector<int> widths;
+    {
+        RenderWorker worker(
+            [&] {
+                return [&](const RenderInput&, const RenderSettings& settings) {
+                    widths.push_back(settings.width);
+                    std::this_thread::sleep_for(std::chrono::milliseconds(120));  // slower than "instant"
+                    return greyPicture(settings);
+                };
+            },
+            [] {});
+        worker.show(1, stateOf(0));
+        const std::vector<WorkerResult> results = resultsUntil(worker, 1);
+        ASSERT_FALSE(results.empty());
+        EXPECT_TRUE(results.back().full);
+        EXPECT_EQ(results.back().display.width, 400);
+        EXPECT_EQ(results.back().display.height, 200);
+        EXPECT_EQ(results.back().display.rgba.size(), 400u * 200 * 4);
+        EXPECT_EQ(results.back().stats.device, "paper");
+    }
+    ASSERT_GE(widths.size(), 3u);  // more full ones may have followed
+    EXPECT_EQ(std::vector<int>(widths.begin(), widths.begin() + 3), (std::vector<int>{100, 200, 400}));
+}
+
+// Pictures of 0.1 and 0.3 in turn: their mean is shown, but the first one is what is saved.
+TEST(RenderWorker, AStillViewIsTheMeanOfPicturesFromSlightlyTurnedCameras) {
+    std::vector<glm::dmat4> cameras;
     RenderWorker worker(
         [&] {
-            return [&](const RenderInput&, const RenderSettings& settings) {
-                widths.push_back(settings.width);
-                std::this_thread::sleep_for(std::chrono::milliseconds(120));  // slower than "instant"
-                return greyPicture(settings);
+            return [&](const RenderInput& input, const RenderSettings& settings) {
+                RenderResult result = greyPicture(settings);
+                if (settings.width == 400) {
+                    cameras.push_back(input.camera.world);
+                    for (std::size_t i = 0; i < result.picture.values.size(); ++i)
+                        result.picture.values[i] = cameras.size() % 2 ? 0.1f : 0.3f;
+                }
+                return result;
             };
         },
         [] {});
     worker.show(1, stateOf(0));
-    const std::vector<WorkerResult> results = resultsUntil(worker, 1);
+    std::optional<WorkerResult> last;
+    for (int i = 0; i < 5000 && !(last && last->refined == RenderWorker::kRefinements); ++i) {
+        if (auto result = worker.takeResult()) last = std::move(result);
+        std::this_thread::sleep_for(1ms);
+    }
+    ASSERT_TRUE(last && last->refined == RenderWorker::kRefinements);
+    EXPECT_EQ(last->linear->values[0], 0.1f);
+    Picture mean = *last->linear;
+    mean.values.assign(mean.values.size(), 0.2f);
+    EXPECT_NEAR(last->display.rgba[0], toDisplay(mean, 0).rgba[0], 1);
+    ASSERT_EQ(cameras.size(), std::size_t(RenderWorker::kRefinements));
+    for (std::size_t i = 1; i < cameras.size(); ++i) {
+        EXPECT_NE(cameras[i], cameras[0]);
+        // A third of a pixel of 200 in a field of 0.6 rad is 1 mrad.
+        EXPECT_LT(glm::length(glm::dvec3(cameras[i][2] - cameras[0][2])), 1e-3);
+    }
+}
+
+TEST(RenderWorker, AnotherExposureIsNotRenderedAnew) {
+    int rendered = 0;
+    RenderWorker worker(
+        [&] {
+            return [&](const RenderInput&, const RenderSettings& settings) {
+                ++rendered;
+                return greyPicture(settings);
+            };
+        },
+        [] {});
+    RenderState state = stateOf(0);
+    state.overlay = "";
+    worker.show(1, state);
+    for (int i = 0; i < 5000; ++i) {
+        const auto result = worker.takeResult();
+        if (result && result->refined == RenderWorker::kRefinements) break;
+        std::this_thread::sleep_for(1ms);
+    }
+    const int before = rendered;
+    state.rig.exposure = 1;
+    worker.show(2, state);
+    const std::vector<WorkerResult> results = resultsUntil(worker, 2);
     ASSERT_FALSE(results.empty());
-    EXPECT_TRUE(results.back().full);
-    EXPECT_EQ(results.back().display.width, 400);
-    EXPECT_EQ(results.back().display.height, 200);
-    EXPECT_EQ(results.back().display.rgba.size(), 400u * 200 * 4);
-    EXPECT_EQ(results.back().stats.device, "paper");
-    EXPECT_EQ(widths, (std::vector<int>{100, 200, 400}));
+    EXPECT_EQ(results.back().version, 2u);
+    EXPECT_EQ(results.back().display.rgba[0], toDisplay(*results.back().linear, 1).rgba[0]);
+    EXPECT_LE(rendered - before, RenderWorker::kRefinements - 1);  // the refinement, but no first picture
+}
+
+TEST(RenderWorker, PicturesBesideTheViewFollowIt) {
+    std::vector<int> widths;
+    std::vector<AsideResult> beside;
+    {
+        RenderWorker worker(
+            [&] {
+                return [&](const RenderInput&, const RenderSettings& settings) {
+                    widths.push_back(settings.width);
+                    return greyPicture(settings);
+                };
+            },
+            [] {});
+        worker.renderAside({7, stateOf(0, 64, 48)});
+        for (int i = 0; i < 5000 && beside.empty(); ++i) {
+            for (AsideResult& result : worker.takeAside()) beside.push_back(std::move(result));
+            std::this_thread::sleep_for(1ms);
+        }
+        EXPECT_EQ(worker.status().aside, 0u);
+    }
+    ASSERT_EQ(beside.size(), 1u);
+    EXPECT_EQ(beside[0].id, 7);
+    ASSERT_NE(beside[0].linear, nullptr);
+    EXPECT_EQ(beside[0].display.width, 64);
+    EXPECT_EQ(widths, std::vector<int>{64});
 }
 
 TEST(RenderWorker, ANewerStateEndsTheRefinement) {

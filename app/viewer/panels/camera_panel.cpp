@@ -43,6 +43,7 @@ void drawFraming(Session& session) {
     label("Frame");
     const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
     const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y});
     for (const Framing framing : {Framing::face, Framing::bust, Framing::full, Framing::group}) {
         if (framing != Framing::face) ImGui::SameLine(0, gap);
         if (!ImGui::Button(framingName(framing), {width, 0})) continue;
@@ -50,6 +51,7 @@ void drawFraming(Session& session) {
             frameSubject(camera, *session.geometry, session.selectedCharacter, framing, session.aspect());
         });
     }
+    ImGui::PopStyleVar();
 }
 
 void drawLens(Session& session) {

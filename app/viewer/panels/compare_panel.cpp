@@ -1,7 +1,7 @@
 // Two states beside each other.
 #include <imgui.h>
 
-#include "app/viewer/actions.h"
+#include "app/viewer/comparing.h"
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/panels/widgets.h"
 
@@ -14,9 +14,7 @@ void drawSlot(Session& session, std::size_t slot) {
     label(slot == 0 ? "State A" : "State B");
     const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
     const float width = (ImGui::GetContentRegionAvail().x - gap) / 2;
-    ImGui::BeginDisabled(!session.picture);
-    if (ImGui::Button("Store", {width, 0})) storeState(session, slot);
-    ImGui::EndDisabled();
+    if (ImGui::Button("Store", {width, 0})) storeCurrent(session, slot);
     hint("Keeps the lights, the skin and the view as they are now, and their picture");
     ImGui::SameLine(0, gap);
     ImGui::BeginDisabled(!state.stored);
@@ -24,13 +22,40 @@ void drawSlot(Session& session, std::size_t slot) {
     ImGui::EndDisabled();
     hint("Makes this state the current one; undo brings the other back");
     if (state.stored) {
-        const Rig rig = effectiveRig(state.document);
-        int on = 0;
-        for (const Light& light : rig.lights) on += light.enabled;
         label("");
-        ImGui::TextDisabled("%d of %zu lights%s", on, rig.lights.size(), state.full ? "" : ", preview");
+        ImGui::TextDisabled("%s%s", state.name.c_str(), state.linear ? "" : ", on its way");
     }
     ImGui::PopID();
+}
+
+void drawFigures(Session& session) {
+    heading("B against A");
+    const bool relative = session.differenceMap == DifferenceMap::relative;
+    if (ImGui::RadioButton("Relative", relative)) session.differenceMap = DifferenceMap::relative;
+    hint("White: a difference as large as the mean light");
+    ImGui::SameLine();
+    if (ImGui::RadioButton("Perceived", !relative)) session.differenceMap = DifferenceMap::perceived;
+    hint("FLIP, as shown on a screen. White: 0.5 and more");
+    if (!session.figures || session.comparing.valid()) {
+        ImGui::TextDisabled("Comparing ...");
+        return;
+    }
+    const ComparedFigures& figures = *session.figures;
+    if (!figures.problem.empty()) {
+        ImGui::TextWrapped("%s", figures.problem.c_str());
+        return;
+    }
+    const auto row = [](const char* name, const char* format, double value, const char* help) {
+        label(name);
+        ImGui::Text(format, value);
+        hint(help);
+    };
+    row("Relative L2", "%.2f %%", 100 * figures.relativeL2,
+        "Root of the squared differences over that of A's light");
+    row("99th percent", "%.2f %%", 100 * figures.p99,
+        "99 of 100 values differ by less, in shares of A's mean light");
+    row("Perceived", "%.4f FLIP", figures.flip, "Mean over the picture; 0 is no difference, 1 the largest");
+    row("Light", "%.1f %%", 100 * figures.lightRatio, "All of B's light over all of A's");
 }
 
 }  // namespace
@@ -39,22 +64,34 @@ void drawComparePanel(Session& session) {
     heading("States");
     drawSlot(session, 0);
     drawSlot(session, 1);
+    const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
+    const float width = (ImGui::GetContentRegionAvail().x - gap) / 2;
+    ImGui::BeginDisabled(!session.hasLight());
+    if (ImGui::Button("One light, all", {width, 0})) compareChosenLight(session);
+    ImGui::EndDisabled();
+    hint("Stores all lights as A, the chosen one alone as B");
+    ImGui::SameLine(0, gap);
+    ImGui::BeginDisabled(!session.compared[0].stored);
+    if (ImGui::Button("From this view", {width, 0})) renewStates(session);
+    ImGui::EndDisabled();
+    hint("Renders A and B from where the view is now");
     heading("Show");
     const std::pair<const char*, CompareMode> modes[] = {{"The current state", CompareMode::off},
                                                          {"Wipe", CompareMode::wipe},
                                                          {"Side by side", CompareMode::sideBySide},
-                                                         {"Blink", CompareMode::blink}};
+                                                         {"Blink", CompareMode::blink},
+                                                         {"Difference", CompareMode::difference}};
     for (const auto& [text, mode] : modes)
         if (ImGui::RadioButton(text, session.compareMode == mode)) session.compareMode = mode;
     if (session.compareMode == CompareMode::wipe) sliderRow("Wipe at", session.wipe, 0, 1, "%.2f");
     if (session.compareMode == CompareMode::off) return;
-    ImGui::PushTextWrapPos();
     if (!session.compared[0].stored) {
         ImGui::TextDisabled("Store a state as A first.");
+    } else if (session.compareMode == CompareMode::difference) {
+        drawFigures(session);
     } else {
         ImGui::TextDisabled("A against %s.", session.compared[1].stored ? "B" : "the current state");
     }
-    ImGui::PopTextWrapPos();
 }
 
 }  // namespace cutis::app

@@ -1,68 +1,106 @@
 // The environment: which, how bright, which way round.
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "app/inputs.h"
 #include "app/viewer/actions.h"
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/panels/widgets.h"
+#include "app/viewer/thumbnails.h"
 
 namespace cutis::app {
 namespace fs = std::filesystem;
 namespace {
 
-// Environments that set-up installed; read from the folder once.
-const std::vector<fs::path>& installedEnvironments() {
-    static const std::vector<fs::path> found = [] {
-        std::vector<fs::path> files;
-        std::error_code error;
-        for (const auto& entry : fs::directory_iterator(dataFolder() / "hdri", error))
-            if (entry.path().extension() == ".exr" || entry.path().extension() == ".hdr")
-                files.push_back(entry.path());
-        std::sort(files.begin(), files.end());
-        return files;
-    }();
-    return found;
+int numberOf(const std::string& file) {
+    const auto& files = installedEnvironments();
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (files[i].filename() == fs::path(file).filename())
+            return kEnvironmentPictures + static_cast<int>(i);
+    return -1;
 }
 
-void drawChoice(Session& session) {
-    const std::string current = session.document().rig.environment.file;
-    label("File");
-    const std::string shown = current.empty() ? "none" : fs::path(current).stem().string();
-    if (!ImGui::BeginCombo("##file", shown.c_str(), ImGuiComboFlags_HeightLarge)) return;
-    if (ImGui::Selectable("none", current.empty()))
-        session.edits.apply("No environment",
-                            [](Document& document) { document.rig.environment.file.clear(); });
-    for (const fs::path& file : installedEnvironments()) {
-        const bool chosen = fs::path(current).filename() == file.filename();
-        if (ImGui::Selectable(file.stem().c_str(), chosen)) openEnvironment(session, file);
+// The environment as a strip that is dragged sideways to turn it: the middle lies behind the subject (-Z).
+void drawStrip(Session& session, const EnvironmentSettings& settings) {
+    const float width = ImGui::GetContentRegionAvail().x, height = width / 2;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton("strip", {width, height});
+    hint("Drag sideways to turn the environment");
+    if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0) {
+        const double degrees = -360.0 * ImGui::GetIO().MouseDelta.x / width;
+        session.edits.apply("Turn the environment", [&](Document& document) {
+            double& rotation = document.rig.environment.rotation;
+            rotation += degrees;
+            rotation -= 360 * std::floor((rotation + 180) / 360);
+        });
     }
-    ImGui::Separator();
-    if (ImGui::Selectable("Another file ...")) showDialog(session, Dialog::open);
-    ImGui::EndCombo();
+    const int number = numberOf(settings.file);
+    const double turns = -settings.rotation / 360;
+    const float shift = std::round(static_cast<float>((turns - std::floor(turns)) * width));
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.PushClipRect(at, {at.x + width, at.y + height}, true);
+    if (session.pictures.count(number)) {
+        placePicture(session, number, at.x + shift, at.y, width, height);
+        placePicture(session, number, at.x + shift - width, at.y, width, height);
+    } else {
+        draw.AddRectFilled(at, {at.x + width, at.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    }
+    draw.PopClipRect();
+}
+
+void drawLibrary(Session& session) {
+    const auto& files = installedEnvironments();
+    const std::string current = fs::path(session.document().rig.environment.file).filename().string();
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float width = std::floor((ImGui::GetContentRegionAvail().x - gap) / 2);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (i % 2) ImGui::SameLine(0, gap);
+        ImGui::BeginGroup();
+        const std::string name = files[i].stem().string();
+        if (thumbnail(session, name.c_str(), kEnvironmentPictures + static_cast<int>(i), width, width / 2,
+                      files[i].filename() == current))
+            openEnvironment(session, files[i]);
+        hint(name.c_str());
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::PushClipRect(at, {at.x + width, at.y + ImGui::GetTextLineHeight()}, true);
+        ImGui::TextDisabled("%s", name.c_str());
+        ImGui::PopClipRect();
+        ImGui::EndGroup();
+    }
+    if (files.empty()) ImGui::TextDisabled("tools/setup installs environments");
 }
 
 }  // namespace
 
 void drawEnvironmentPanel(Session& session) {
-    heading("Environment");
-    drawChoice(session);
     EnvironmentSettings settings = session.document().rig.environment;
-    if (settings.file.empty()) return;
-    bool changed = checkRow("On", settings.enabled);
-    changed |= dragRow("Intensity", settings.intensity, 0.005f, 0, 1000, "%.3g", true);
-    double turn = settings.rotation - 360 * std::floor((settings.rotation + 180) / 360);
-    if (sliderRow("Rotation", turn, -180, 180, "%.0f\xc2\xb0")) {
-        settings.rotation = turn;
-        changed = true;
+    if (settings.file.empty()) {
+        ImGui::TextDisabled("No environment");
+    } else {
+        heading(fs::path(settings.file).stem().c_str());
+        drawStrip(session, settings);
+        bool changed = checkRow("On", settings.enabled);
+        changed |= dragRow("Intensity", settings.intensity, 0.005f, 0, 1000, "%.3g", true);
+        double turn = settings.rotation - 360 * std::floor((settings.rotation + 180) / 360);
+        if (sliderRow("Rotation", turn, -180, 180, "%.0f\xc2\xb0")) {
+            settings.rotation = turn;
+            changed = true;
+        }
+        changed |=
+            intRow("Suns", settings.shadowSamples, 0, 64, settings.shadowSamples ? "%d samples" : "none");
+        hint("Its brightest parts, taken out as so many light samples: they cast sharp shadows");
+        settings.rotation = changed ? settings.rotation : session.document().rig.environment.rotation;
+        settings.file = session.document().rig.environment.file;
+        if (changed)
+            session.edits.apply("Environment",
+                                [&](Document& document) { document.rig.environment = settings; });
+        if (ImGui::Button("Remove", {-1, 0}))
+            session.edits.apply("No environment",
+                                [](Document& document) { document.rig.environment.file.clear(); });
     }
-    changed |=
-        intRow("Shadows", settings.shadowSamples, 0, 64, settings.shadowSamples ? "%d samples" : "soft only");
-    hint("Directions of the environment that cast shadows as lights do");
-    if (changed)
-        session.edits.apply("Environment", [&](Document& document) { document.rig.environment = settings; });
+    heading("Library");
+    if (ImGui::Button("Another file ...", {-1, 0})) showDialog(session, Dialog::open);
+    drawLibrary(session);
 }
 
 }  // namespace cutis::app

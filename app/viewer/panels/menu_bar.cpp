@@ -9,6 +9,11 @@ namespace {
 void drawFileMenu(Session& session) {
     if (!ImGui::BeginMenu("File")) return;
     if (ImGui::MenuItem("Open ...", "Ctrl+O")) showDialog(session, Dialog::open);
+    if (ImGui::BeginMenu("Open recent", !session.recent.empty())) {
+        for (const std::filesystem::path& file : std::vector(session.recent))
+            if (ImGui::MenuItem(file.c_str())) openFile(session, file);
+        ImGui::EndMenu();
+    }
     if (ImGui::MenuItem("Default scene")) openScene(session, "default");
     ImGui::Separator();
     if (ImGui::MenuItem("Save rig", "Ctrl+S")) saveRig(session);
@@ -41,7 +46,9 @@ float drawMenuBar(Session& session) {
         drawFileMenu(session);
         drawEditMenu(session);
         if (ImGui::BeginMenu("View")) {
+            ImGui::MenuItem("Panels", "Tab", &session.showPanels);
             ImGui::MenuItem("Light handles", "H", &session.showHandles);
+            ImGui::MenuItem("Light mixer", "X", &session.mixer.shown);
             ImGui::EndMenu();
         }
         if (ImGui::BeginMenu("Help")) {

@@ -8,6 +8,7 @@ namespace cutis::app {
 
 void drawRigPanel(Session& session);    // the list of lights
 void drawLightPanel(Session& session);  // the chosen one
+void drawPresetPanel(Session& session);
 void drawCameraPanel(Session& session);
 void drawEnvironmentPanel(Session& session);
 void drawSkinPanel(Session& session);
@@ -15,6 +16,9 @@ void drawComparePanel(Session& session);
 void drawPlanPanel(Session& session);
 
 // These make windows of their own.
+void drawViewBar(Session& session,
+                 const PixelRect& where);  // above the picture: what it shows, what dragging does
+void drawMixerStrip(Session& session, const PixelRect& where);
 float drawMenuBar(Session& session);  // returns its height
 void drawStatusBar(Session& session, float height);
 void drawHelp(Session& session);

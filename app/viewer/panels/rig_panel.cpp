@@ -1,16 +1,13 @@
-// The lights of the rig as a mixer: solo, mute, name, and how bright each is beside the brightest.
+// The lights of the rig: solo, mute, colour, name, and how bright each is beside the brightest.
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "app/viewer/actions.h"
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/style.h"
 #include "renderer/scene/light_samples.h"
-#include "renderer/scene/presets.h"
 #include "renderer/scene/rig.h"
 #include "renderer/scene/tonemap.h"
 
@@ -24,15 +21,42 @@ ImVec4 shownColor(const Light& light) {
     return {encodeSrgb(float(color.x)), encodeSrgb(float(color.y)), encodeSrgb(float(color.z)), 1};
 }
 
-// "-1.3" stops below the brightest light at the head.
-std::string stopsText(const Session& session, std::size_t index) {
-    if (index >= session.headIrradiance.size()) return "";
+// Colour as on a screen; what is changed keeps the light's temperature.
+void drawColor(Session& session, std::size_t index, const Light& light) {
+    const float size = ImGui::GetTextLineHeight();
+    constexpr ImGuiColorEditFlags kPlain =
+        ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop | ImGuiColorEditFlags_NoBorder;
+    if (ImGui::ColorButton("##color", shownColor(light), kPlain, {size, size})) ImGui::OpenPopup("color");
+    hint("Colour");
+    if (!ImGui::BeginPopup("color")) return;
+    float color[3];
+    for (int c = 0; c < 3; ++c) color[c] = encodeSrgb(static_cast<float>(light.color[c]));
+    if (ImGui::ColorPicker3("##picker", color,
+                            ImGuiColorEditFlags_PickerHueWheel | ImGuiColorEditFlags_NoSidePreview))
+        session.edits.apply("Colour of " + light.name, [&](Document& document) {
+            for (int c = 0; c < 3; ++c) document.rig.lights[index].color[c] = decodeSrgb(color[c]);
+        });
+    ImGui::EndPopup();
+}
+
+// Stops below the brightest light at the head; dragging makes the light brighter or darker.
+void drawStops(Session& session, std::size_t index, const Light& light) {
+    if (index >= session.headIrradiance.size()) return;
     const double brightest = *std::max_element(session.headIrradiance.begin(), session.headIrradiance.end());
     const double own = session.headIrradiance[index];
-    if (!(own > 0) || !(brightest > 0)) return "dark";
-    char text[16];
-    std::snprintf(text, sizeof text, "%+.1f", std::min(0.0, std::log2(own / brightest)) + 0.0);
-    return std::string(text) == "-0.0" ? "+0.0" : text;
+    const bool known = own > 0 && brightest > 0;
+    float stops = known ? static_cast<float>(std::log2(own / brightest)) : 0.0f;
+    if (std::abs(stops) < 0.005f) stops = 0;
+    const float before = stops;
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::DragFloat("##stops", &stops, 0.02f, -20, 20, known ? "%+.2f" : "aside",
+                         ImGuiSliderFlags_NoInput) &&
+        stops != before)
+        session.edits.apply("Intensity of " + light.name, [&](Document& document) {
+            document.rig.lights[index].intensity = light.intensity * std::exp2(double(stops) - before);
+        });
+    hint(known ? "Stops below the brightest light, at the head. Drag: brighter or darker"
+               : "Shines past the head. Drag: brighter or darker");
 }
 
 void drawRow(Session& session, int index) {
@@ -51,19 +75,15 @@ void drawRow(Session& session, int index) {
         session.edits.apply("Mute " + name, [&](Document& d) { d.rig.lights[i].enabled = !on; });
     hint("Mute: this light is off");
     ImGui::TableNextColumn();
-    const float size = ImGui::GetTextLineHeight();
-    ImGui::ColorButton(
-        "##color", shownColor(light),
-        ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop | ImGuiColorEditFlags_NoBorder,
-        {size, size});
+    drawColor(session, i, light);
     ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
     if (!on) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     const std::string shown = (name.empty() ? "(no name)" : name) + "##name";
     if (ImGui::Selectable(shown.c_str(), index == session.selectedLight)) session.selectedLight = index;
     if (!on) ImGui::PopStyleColor();
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", stopsText(session, i).c_str());
-    hint("Stops below the brightest light, at the head");
+    drawStops(session, i, light);
     ImGui::PopID();
 }
 
@@ -76,15 +96,6 @@ void drawAddMenu(Session& session) {
         session.edits.apply(std::string("Add ") + lightTypeName(type),
                             [&](Document& document) { added = addLight(document, type); });
         session.selectedLight = added;
-    }
-    ImGui::EndPopup();
-}
-
-void drawPresetMenu(Session& session) {
-    if (!ImGui::BeginPopup("presets")) return;
-    for (const Preset& preset : presets()) {
-        if (ImGui::MenuItem(preset.name.c_str())) openPreset(session, preset.name);
-        hint(preset.summary.c_str());
     }
     ImGui::EndPopup();
 }
@@ -124,9 +135,6 @@ void drawButtons(Session& session) {
         session.selectedLight = selected + 1;
     }
     ImGui::EndDisabled();
-    ImGui::SameLine();
-    if (ImGui::Button("Presets")) ImGui::OpenPopup("presets");
-    drawPresetMenu(session);
 }
 
 }  // namespace
@@ -136,17 +144,21 @@ void drawRigPanel(Session& session) {
     const std::string name = document.rig.name.empty() ? "Lights" : document.rig.name;
     heading(name.c_str());
     const float rows = static_cast<float>(std::clamp<std::size_t>(document.rig.lights.size(), 4, 8));
-    const float height = rows * (ImGui::GetTextLineHeightWithSpacing() + 2) + 6;
+    const float scale = static_cast<float>(session.uiScale);
+    // Rows as high as a line of text, their fields too.
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {5 * scale, 1 * scale});
+    const float height = rows * (ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().CellPadding.y) + 2 * scale;
     if (ImGui::BeginTable("lights", 5, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) {
         const float letter = ImGui::CalcTextSize("M").x + 2 * ImGui::GetStyle().FramePadding.x;
         ImGui::TableSetupColumn("solo", ImGuiTableColumnFlags_WidthFixed, letter);
         ImGui::TableSetupColumn("mute", ImGuiTableColumnFlags_WidthFixed, letter);
         ImGui::TableSetupColumn("color", ImGuiTableColumnFlags_WidthFixed, ImGui::GetTextLineHeight());
         ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
-        ImGui::TableSetupColumn("stops", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("-10.0 ").x);
+        ImGui::TableSetupColumn("stops", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize(" -10.00 ").x);
         for (int i = 0; i < static_cast<int>(session.document().rig.lights.size()); ++i) drawRow(session, i);
         ImGui::EndTable();
     }
+    ImGui::PopStyleVar();
     drawButtons(session);
 }
 

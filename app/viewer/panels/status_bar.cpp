@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <cstdio>
+#include <cstring>
 
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/style.h"
@@ -15,13 +16,21 @@ std::string workText(const Session& session) {
     if (!session.loading.empty()) {
         std::snprintf(text, sizeof text, "Loading %s, %.0f s", session.loading.c_str(),
                       session.loadingSeconds);
+    } else if (session.picture && session.picture->refined > 0 &&
+               session.picture->version == session.edits.version()) {
+        const WorkerResult& picture = *session.picture;
+        const char* state = picture.refined >= RenderWorker::kRefinements ? "Converged"
+                            : worker.aside > 0                            ? "Complete"
+                                                                          : "Refining";
+        std::snprintf(text, sizeof text, "%s, %d \xc3\x97 %d in %.1f s, %d of %d", state,
+                      picture.display.width, picture.display.height, picture.seconds, picture.refined,
+                      RenderWorker::kRefinements);
+        if (worker.aside > 0)
+            std::snprintf(text + std::strlen(text), sizeof text - std::strlen(text), "; %zu pictures to come",
+                          worker.aside);
     } else if (worker.busy) {
         std::snprintf(text, sizeof text, "Rendering %d \xc3\x97 %d, %.0f s", worker.width, worker.height,
                       worker.seconds);
-    } else if (session.picture && session.picture->full) {
-        std::snprintf(text, sizeof text, "Picture complete, %d \xc3\x97 %d in %.1f s",
-                      session.picture->display.width, session.picture->display.height,
-                      session.picture->seconds);
     }
     return text;
 }

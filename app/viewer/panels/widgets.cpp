@@ -3,11 +3,16 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
+
+#include "app/viewer/style.h"
+
 namespace cutis::app {
 namespace {
 
 std::string hidden(const char* text) {
-    return std::string("##") + text;
+    std::string id = "##";
+    return id.append(text);
 }
 
 }  // namespace
@@ -68,6 +73,36 @@ bool toggleButton(const char* text, bool on, unsigned color) {
     }
     const bool clicked = ImGui::SmallButton(text);
     if (on) ImGui::PopStyleColor(2);
+    return clicked;
+}
+
+void placePicture(Session& session, int picture, float x, float y, float width, float height) {
+    const ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 low = draw.GetClipRectMin(), high = draw.GetClipRectMax();
+    const auto rectangle = [](float left, float top, float right, float bottom) {
+        return PixelRect{int(left), int(top), int(right) - int(left), int(bottom) - int(top)};
+    };
+    const float left = std::max(x, low.x), top = std::max(y, low.y);
+    const float right = std::min(x + width, high.x), bottom = std::min(y + height, high.y);
+    if (left >= right || top >= bottom) return;
+    session.thumbnails.push_back(
+        {picture, rectangle(x, y, x + width, y + height), rectangle(left, top, right, bottom)});
+}
+
+bool thumbnail(Session& session, const char* id, int picture, float width, float height, bool chosen) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool clicked = ImGui::InvisibleButton(id, {width, height});
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    if (session.pictures.count(picture)) {
+        placePicture(session, picture, at.x, at.y, width, height);
+    } else {
+        draw.AddRectFilled(at, {at.x + width, at.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    }
+    const float line = static_cast<float>(session.uiScale);
+    const bool hovered = ImGui::IsItemHovered();
+    if (chosen || hovered)
+        draw.AddRect(at, {at.x + width, at.y + height}, accentColor(chosen ? 1.0f : 0.6f), 0, 0,
+                     (chosen ? 2 : 1) * line);
     return clicked;
 }
 

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "app/viewer/session.h"
+
 namespace cutis::app {
 
 // Puts the label down; the next control fills the rest of the row.
@@ -20,5 +22,11 @@ void heading(const char* text);
 void hint(const char* text);  // shown when the mouse rests on the last control
 // A small button that stays down while `on`.
 bool toggleButton(const char* text, bool on, unsigned color);
+
+// A picture of the window as a button of that size in pixels, framed when it is chosen; a dark place while
+// there is no such picture. True when it was clicked. `id` is its identity within the panel.
+bool thumbnail(Session& session, const char* id, int picture, float width, float height, bool chosen);
+// Shows `picture` over the rectangle from `corner` in the current panel, under what is drawn there.
+void placePicture(Session& session, int picture, float x, float y, float width, float height);
 
 }  // namespace cutis::app

@@ -1,0 +1,110 @@
+#include "app/viewer/overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <iterator>
+
+#include "renderer/core/parallel.h"
+#include "renderer/scene/tonemap.h"
+
+namespace cutis::app {
+namespace {
+
+constexpr Overlay kOverlays[] = {
+    {"", "Picture", ""},
+    {"diffuse", "Diffuse", "light that left the skin diffusely, exposed"},
+    {"specular", "Specular", "light that was reflected, exposed"},
+    {"irradiance", "Irradiance", "light that arrives, over pi, exposed"},
+    {"thickness", "Thickness", "white 0 mm, through yellow and red, black 30 mm and more"},
+    {"albedo", "Albedo", "as sRGB"},
+    {"normal", "Normal", "red +X, green +Y, blue +Z"},
+    {"depth", "Depth", "white the nearest, black the farthest"},
+    {"character", "Character", "one colour a character"},
+};
+
+constexpr float kThick = 30;  // mm: nothing shines through more
+
+std::uint8_t toByte(float value) {
+    return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f);
+}
+
+// Black through purple, red and yellow to white: as the maps of `cutis compare`.
+glm::vec3 heat(float value) {
+    static constexpr float kStops[][3] = {{0, 0, 0},      {70, 10, 90},   {180, 30, 60},
+                                          {240, 120, 10}, {255, 220, 80}, {255, 255, 255}};
+    constexpr int kSteps = static_cast<int>(std::size(kStops)) - 1;
+    const float place = std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) * kSteps : kSteps;
+    const int step = std::min(static_cast<int>(place), kSteps - 1);
+    const float part = place - static_cast<float>(step);
+    glm::vec3 color;
+    for (int c = 0; c < 3; ++c)
+        color[c] = (kStops[step][c] + part * (kStops[step + 1][c] - kStops[step][c])) / 255;
+    return color;
+}
+
+// `color` of each pixel, from its values, as code values.
+template <class Color>
+DisplayPicture paint(const Picture& values, const Color& color) {
+    DisplayPicture display{values.width, values.height, {}};
+    const auto width = static_cast<std::size_t>(values.width),
+               channels = static_cast<std::size_t>(values.channels);
+    display.rgba.resize(width * static_cast<std::size_t>(values.height) * 4, 255);
+    parallelFor(static_cast<std::size_t>(values.height), [&](std::size_t y) {
+        for (std::size_t i = y * width; i < (y + 1) * width; ++i) {
+            const glm::vec3 code = color(&values.values[i * channels]);
+            for (std::size_t c = 0; c < 3; ++c) display.rgba[i * 4 + c] = toByte(code[int(c)]);
+        }
+    });
+    return display;
+}
+
+glm::vec3 encode(const glm::vec3& linear) {
+    return {encodeSrgb(linear.x), encodeSrgb(linear.y), encodeSrgb(linear.z)};
+}
+
+DisplayPicture showDepth(const Picture& values) {
+    float near = std::numeric_limits<float>::infinity(), far = 0;
+    for (const float depth : values.values)
+        if (depth > 0) near = std::min(near, depth), far = std::max(far, depth);
+    return paint(values, [=](const float* p) {
+        return *p > 0 ? glm::vec3(1 - 0.9f * (*p - near) / std::max(far - near, 1e-6f)) : glm::vec3(0);
+    });
+}
+
+}  // namespace
+
+std::span<const Overlay> overlays() {
+    return kOverlays;
+}
+
+DisplayPicture showAov(const std::string& aov, const Picture& values, double exposure) {
+    const float gain = static_cast<float>(std::exp2(exposure));
+    const auto rgb = [](const float* p) { return glm::vec3(p[0], p[1], p[2]); };
+    if (aov == "thickness")
+        return paint(values, [](const float* p) { return *p > 0 ? heat(1 - *p / kThick) : glm::vec3(0); });
+    if (aov == "depth") return showDepth(values);
+    if (aov == "character")
+        return paint(values, [](const float* p) {
+            // Hues a golden ratio apart differ for any number of characters.
+            const float hue = std::fmod(*p * 0.618034f, 1.0f) * 6;
+            const glm::vec3 color(std::abs(hue - 3) - 1, 2 - std::abs(hue - 2), 2 - std::abs(hue - 4));
+            return *p > 0 ? 0.25f + 0.65f * glm::clamp(color, 0.0f, 1.0f) : glm::vec3(0);
+        });
+    if (aov == "normal")
+        return paint(values, [&](const float* p) {
+            return rgb(p) == glm::vec3(0) ? glm::vec3(0) : 0.5f + 0.5f * rgb(p);
+        });
+    if (aov == "albedo")
+        return paint(values, [&](const float* p) { return encode(glm::clamp(rgb(p), 0.0f, 1.0f)); });
+    const float scale = aov == "irradiance" ? gain * 0.318310f : gain;
+    return paint(values,
+                 [&](const float* p) { return encode(glm::min(toneMapNeutral(rgb(p) * scale), 1.0f)); });
+}
+
+DisplayPicture showMap(const Picture& map, double whole) {
+    const float scale = static_cast<float>(1 / whole);
+    return paint(map, [=](const float* p) { return heat(*p * scale); });
+}
+
+}  // namespace cutis::app

@@ -1,0 +1,21 @@
+// Where everything lies in the window.
+#pragma once
+
+#include "app/viewer/session.h"
+
+namespace cutis::app {
+
+struct Layout {
+    float side = 0;        // width of the panels on the left and on the right
+    float top = 0;         // below the menu bar
+    float bottom = 0;      // above the status bar
+    PixelRect bar, mixer;  // above and below the picture
+};
+
+// Puts session.room and session.view where they belong in a window of that size; panels may be hidden.
+Layout layOut(Session& session, float width, float height, float menuBar, float statusBar);
+
+// The pictures behind the interface: the view, as it is compared, and the panels' thumbnails.
+std::vector<PicturePart> pictureParts(const Session& session);
+
+}  // namespace cutis::app
