@@ -3,7 +3,7 @@
 // Every invocation samples another texture of the array: which one differs within each subgroup.
 struct Choice {
     uint texture_;
-    float texels;  // over which one step to the right goes, in texels of mip 0 of a texture that is 64 wide
+    float texels;  // over which one step to the right or down goes, in texels of mip 0 of a texture that is 64 wide and high
 };
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform sampler2DArray textures[16];
@@ -14,5 +14,5 @@ layout(binding = 2) writeonly buffer Values { vec4 values[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     Choice choice = choices[i];
-    values[i] = sampleTextureArray(choice.texture_, vec3(0.5, 0.5, 1.0), vec2(choice.texels / 64.0, 0.0), vec2(0.0));
+    values[i] = sampleTextureArray(choice.texture_, vec3(0.5, 0.5, 1.0), vec2(choice.texels / 64.0, 0.0), vec2(0.0, choice.texels / 64.0));
 }
