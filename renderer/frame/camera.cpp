@@ -74,11 +74,17 @@ shared::ViewCamera viewCamera(const Camera& camera, const glm::dvec3& origin, co
 }
 
 double ViewCameraMetrics::metresPerPixel(const glm::dvec3& point) const {
-    const glm::dvec2 half = halfExtents(camera_, pixels_);
-    const double width = 2 * half.y / pixels_.y;
-    if (camera_.orthographic) return width;
     const glm::dvec3 forward = -glm::normalize(glm::dvec3(camera_.world[2]));
-    return width * std::max(glm::dot(point - glm::dvec3(camera_.world[3]), forward), camera_.znear);
+    return widthOfPixel(glm::dot(point - glm::dvec3(camera_.world[3]), forward));
+}
+
+double ViewCameraMetrics::metresPerPixelAtDistance(const glm::dvec3& point) const {
+    return widthOfPixel(glm::length(point - glm::dvec3(camera_.world[3])));
+}
+
+double ViewCameraMetrics::widthOfPixel(double depth) const {
+    const double width = 2 * halfExtents(camera_, pixels_).y / pixels_.y;
+    return camera_.orthographic ? width : width * std::max(depth, camera_.znear);
 }
 
 }  // namespace cutis

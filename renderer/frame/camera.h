@@ -19,8 +19,11 @@ class ViewCameraMetrics {
     ViewCameraMetrics(const Camera& camera, const glm::ivec2& pixels) : camera_(camera), pixels_(pixels) {}
     // Width of a pixel at a point in world space; at the eye or behind it, that at the near plane.
     double metresPerPixel(const glm::dvec3& point) const;
+    // The same from where the camera stands, whichever way it looks.
+    double metresPerPixelAtDistance(const glm::dvec3& point) const;
 
   private:
+    double widthOfPixel(double depth) const;
     Camera camera_;
     glm::ivec2 pixels_;
 };

@@ -1,11 +1,16 @@
-// Everything one frame holds while its passes are recorded.
+// Everything that pictures are made with: kept from one to the next, as far as it is still good.
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "renderer/frame/atlas.h"
+#include "renderer/frame/detail.h"
 #include "renderer/frame/geometry.h"
+#include "renderer/frame/kept.h"
+#include "renderer/frame/light_map_layers.h"
+#include "renderer/frame/lighting.h"
 #include "renderer/frame/plan.h"
 #include "renderer/frame/upload.h"
 #include "renderer/passes/atlas_tiles.h"
@@ -20,41 +25,43 @@ namespace cutis {
 
 // Texels along each side of the depth map of one direction of the sky.
 inline constexpr int kVisibilityMapSize = 256;
+// Samples of a pixel along each side.
+inline constexpr int kSupersampling = 3;
 
 struct FrameContext {
     gpu::Device* device = nullptr;
-    gpu::Commands* commands = nullptr;
+    gpu::Commands* commands = nullptr;  // open while a row records, unless it runs alone
     const RenderInput* input = nullptr;
     const RenderSettings* settings = nullptr;
+    bool anyView = false;
     Needs needs;
+    const Changes* changes = nullptr;  // of what the row that records reads
 
+    // Known before anything is planned
     Geometry geometry;
-    Atlas atlas;
-    UploadedScene scene;
-    std::vector<LightSample> lightSamples;  // of the rig, then those drawn from the environment
-    std::vector<Bounds> groups;             // of receivers
-    double pixelsAcross = 0;                // the largest diagonal of a character in view, in pixels of the picture
+    std::vector<Bounds> groups;  // of receivers
+    shared::ViewCamera camera{};
+    Detail detail;
+    Lighting lighting;
 
-    const Environment* environment = nullptr;  // what is left of it once light samples are drawn
-    EnvironmentMaps environmentMaps;           // filled before recording: filtering submits its own commands
+    // Made before the frame
+    EnvironmentMaps environmentMaps;
     std::vector<EnvironmentCluster> clusters;
     gpu::Buffer environmentSettings;
-
-    SurfaceImages surface;
-    gpu::Buffer oppositeVertices;
-    AtlasTiles tiles;  // with surface
-    LightMaps lights;
-    EnvironmentVisibility visibility;
     double proxyError = 0;  // metres by which the sky's occluders may stand off the meshes
-    SkinLight skin;
-    shared::ViewCamera camera{};
-    TileBuffers viewTile;  // made by whoever first looks through the camera
+    Atlas atlas;
+    UploadedScene scene;
+    gpu::Buffer oppositeVertices;
+    TileBuffers viewTile;
     PictureTarget target;
 
-    // Back to what is uploaded and filtered: nothing of a frame that was drawn is left.
-    void forgetFrame() {
-        surface = {}, oppositeVertices = {}, tiles = {}, lights = {}, visibility = {}, skin = {}, viewTile = {}, target = {};
-    }
+    // Written by passes
+    SurfaceImages surface;
+    AtlasTiles tiles;  // with surface
+    LightMaps lights;
+    LightMapLayers lightMapLayers;
+    EnvironmentVisibility visibility;
+    SkinLight skin;
 };
 
 }  // namespace cutis

@@ -137,7 +137,7 @@ Geometry flattenScene(const Scene& scene) {
     return geometry;
 }
 
-void addOcclusionProxies(Geometry& geometry, double error) {
+std::vector<std::uint32_t> makeOcclusionProxies(Geometry& geometry, double error) {
     std::vector<std::vector<unsigned>> proxies(geometry.draws.size());
     parallelFor(geometry.draws.size(), [&](std::size_t d) {
         const GeometryDraw& draw = geometry.draws[d];
@@ -154,12 +154,14 @@ void addOcclusionProxies(Geometry& geometry, double error) {
         proxy.resize(meshopt_simplify(proxy.data(), local.data(), local.size(), positions, draw.vertexCount,
                                       sizeof(glm::vec3), 3, relative, 0, &reached));
     });
+    std::vector<std::uint32_t> indices;
     for (std::size_t d = 0; d < geometry.draws.size(); ++d) {
         GeometryDraw& draw = geometry.draws[d];
-        draw.firstProxyIndex = static_cast<std::uint32_t>(geometry.indices.size());
+        draw.firstProxyIndex = static_cast<std::uint32_t>(indices.size());
         draw.proxyIndexCount = static_cast<std::uint32_t>(proxies[d].size());
-        for (unsigned index : proxies[d]) geometry.indices.push_back(index + draw.firstVertex);
+        for (unsigned index : proxies[d]) indices.push_back(index + draw.firstVertex);
     }
+    return indices;
 }
 
 }  // namespace cutis

@@ -17,7 +17,7 @@ struct GeometryDraw {
     int character = -1;  // index into Scene::characters
     std::uint32_t firstIndex = 0, indexCount = 0;
     std::uint32_t firstVertex = 0, vertexCount = 0;
-    std::uint32_t firstProxyIndex = 0, proxyIndexCount = 0;  // see addOcclusionProxies
+    std::uint32_t firstProxyIndex = 0, proxyIndexCount = 0;  // see makeOcclusionProxies
     bool skin = false;
     Bounds bounds;  // world
 };
@@ -44,8 +44,8 @@ struct Geometry {
 // Throws Error when the scene holds more than 2³² / 3 triangles or vertices, or skin without texture coordinates.
 Geometry flattenScene(const Scene& scene);
 
-// Appends to `indices` a coarser form of every draw, for shadows of the sky alone: they are found at a coarse resolution
-// and in a hundred directions. Surfaces move by at most `error` metres.
-void addOcclusionProxies(Geometry& geometry, double error);
+// Vertex numbers of a coarser form of every draw, for shadows of the sky alone: they are found at a coarse resolution and
+// in a hundred directions. Surfaces move by at most `error` metres. Fills the proxy ranges of the draws.
+std::vector<std::uint32_t> makeOcclusionProxies(Geometry& geometry, double error);
 
 }  // namespace cutis

@@ -1,6 +1,6 @@
 // The pass table: to add a pass, add its row here, its pair of files and its shader.
 #include <algorithm>
-#include <bit>
+#include <string>
 
 #include "renderer/frame/frame.h"
 #include "renderer/frame/opposite.h"
@@ -19,103 +19,99 @@
 namespace cutis {
 namespace {
 
-constexpr int kSupersampling = 3;
-// Light maps are as fine as the picture asks (a texel is one to two pixels), whatever their number: a light casts the same
-// shadow alone and among many. Only beyond this much memory do they become coarser.
-constexpr std::uint64_t kLightMapBytes = std::uint64_t(2) << 30;
-constexpr int kLargestLightMap = 4096, kFinestUsefulLightMap = 1024, kSmallestLightMap = 128;
+// Rows before the frame
 
-void addToRuns(const shared::LightSampleData& sample, std::vector<LightRun>& runs, std::uint32_t index) {
-    const bool sameLight = !runs.empty() && runs.back().light == sample.light;
-    const bool shadow = (sample.flags & shared::LIGHT_SHADOW) != 0;
-    if (!sameLight || runs.back().sampleCount == kLongestLightRun || runs.back().shadow != shadow) {
-        runs.push_back({.firstSample = index, .firstView = sample.firstView, .light = sample.light, .shadow = shadow,
-                        .startsLight = !sameLight});
+void makeOppositeVertices(FrameContext& frame) {
+    const std::vector<shared::OppositeVertex> vertices =
+        findOpposite(*frame.input->scene, frame.geometry, frame.atlas);
+    frame.oppositeVertices =
+        gpu::Buffer(*frame.device, {.name = "opposite sides", .bytes = vertices.size() * sizeof(vertices[0])});
+    frame.commands->upload(frame.oppositeVertices, vertices);
+}
+
+glm::ivec2 pictureSize(const FrameContext& frame) {
+    return {frame.settings->width, frame.settings->height};
+}
+
+// Room for one part of the picture.
+void makeViewBuffers(FrameContext& frame) {
+    const int step = tileSize(frame.scene.buffers, kSupersampling);
+    frame.viewTile = makeTileBuffers(*frame.device, frame.scene.buffers,
+                                     glm::min(glm::ivec2(step), pictureSize(frame)), kSupersampling);
+}
+
+void makeTarget(FrameContext& frame) {
+    const auto width = static_cast<std::uint32_t>(frame.settings->width);
+    const auto height = static_cast<std::uint32_t>(frame.settings->height);
+    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    frame.target.picture =
+        gpu::Image(*frame.device, {.name = "picture", .format = format, .width = width, .height = height});
+    frame.target.aovLayer.fill(-1);
+    int layers = 0;
+    for (int i = 0; i < kAovCount; ++i) {
+        const auto& wanted = frame.settings->aovs;
+        if (std::find(wanted.begin(), wanted.end(), kAovNames[i]) != wanted.end()) frame.target.aovLayer[i] = layers++;
     }
-    ++runs.back().sampleCount;
-}
-
-void uploadLights(FrameContext& frame) {
-    std::vector<shared::LightSampleData> samples;
-    std::uint32_t shadowed = 0;
-    int lastLight = 0;
-    for (const LightSample& from : frame.lightSamples) {
-        shared::LightSampleData to{};
-        to.position = glm::vec3(from.position - frame.geometry.origin);
-        to.direction = glm::vec3(from.direction);
-        to.intensity = glm::vec3(from.intensity);
-        to.cosInner = static_cast<float>(from.cosInner);
-        to.cosOuter = static_cast<float>(from.cosOuter);
-        to.range = static_cast<float>(from.range);
-        to.radius = static_cast<float>(from.radius);
-        if (from.directional) to.flags |= shared::LIGHT_DIRECTIONAL;
-        if (from.cosineEmission) to.flags |= shared::LIGHT_COSINE;
-        if (from.shadow) {
-            to.flags |= shared::LIGHT_SHADOW;
-            to.firstView = shadowed++ * static_cast<std::uint32_t>(frame.groups.size());
-        }
-        if (samples.empty() || from.light != lastLight) to.light = frame.lights.lightCount++;
-        else to.light = frame.lights.lightCount - 1;
-        lastLight = from.light;
-        addToRuns(to, frame.lights.runs, static_cast<std::uint32_t>(samples.size()));
-        samples.push_back(to);
+    if (layers > 0) {
+        frame.target.aovs = gpu::Image(*frame.device, {.name = "aovs", .format = format, .width = width,
+                                                       .height = height, .layers = static_cast<std::uint32_t>(layers)});
     }
-    frame.lights.groupCount = static_cast<std::uint32_t>(frame.groups.size());
-    frame.lights.sampleCount = static_cast<std::uint32_t>(samples.size());
-    frame.lights.samples = gpu::Buffer(
-        *frame.device, {.name = "light samples", .bytes = samples.size() * sizeof(shared::LightSampleData)});
-    if (!samples.empty()) frame.commands->upload(frame.lights.samples, samples);
 }
 
-int lightMapSize(const FrameContext& frame, std::size_t views) {
-    if (frame.settings->lightMapSize > 0) return frame.settings->lightMapSize;
-    const std::uint64_t texelBytes = frame.needs[Need::translucency] ? 8 : 4;
-    const auto wanted = static_cast<unsigned>(std::clamp<double>(frame.pixelsAcross, 1, kLargestLightMap));
-    int size = std::clamp(static_cast<int>(std::bit_ceil(wanted)) / 2, kFinestUsefulLightMap, kLargestLightMap);
-    while (size > kSmallestLightMap && views * texelBytes * size * size > kLightMapBytes) size /= 2;
-    return size;
-}
+// Rows of the frame
 
+// Draws the views that no layer holds yet. Whatever the views show, as well as how it is drawn, only lights may have
+// changed for a layer to stay.
 void lightMapsRow(FrameContext& frame) {
     std::vector<LightSample> shadowed;
-    for (const LightSample& sample : frame.lightSamples) {
+    for (const LightSample& sample : frame.lighting.samples) {
         if (sample.shadow) shadowed.push_back(sample);
     }
     LightMaps& maps = frame.lights;
-    const std::size_t count = shadowed.size() * frame.groups.size();
-    maps.size = lightMapSize(frame, count);
+    if (!frame.changes->only(Input::lightPlaces)) {
+        frame.lightMapLayers.forget();
+        maps.depth = {}, maps.entry = {};
+    }
+    maps.size = frame.detail.lightMapSize;
     maps.viewList =
         computeLightViews(shadowed, frame.groups, frame.geometry.bounds, frame.geometry.origin, maps.size);
-    maps.views = gpu::Buffer(*frame.device, {.name = "light views", .bytes = count * sizeof(shared::LightView)});
+    const LightMapLayers::Assignment assigned = frame.lightMapLayers.assign(maps.viewList);
+    maps.views = gpu::Buffer(*frame.device, {.name = "light views", .bytes = maps.viewList.size() * sizeof(shared::LightView)});
     frame.commands->upload(maps.views, maps.viewList);
-    const auto image = [&](const char* name, VkFormat format) {
-        const auto size = static_cast<std::uint32_t>(maps.size);
-        return gpu::Image(*frame.device, {.name = name, .format = format, .width = size, .height = size,
-                                          .layers = static_cast<std::uint32_t>(count)});
-    };
-    maps.depth = image("light depth", VK_FORMAT_D32_SFLOAT);
-    if (frame.needs[Need::translucency]) maps.entry = image("light entry points", VK_FORMAT_R32_UINT);
-    recordLightMaps(*frame.device, *frame.commands, frame.scene.buffers,
-                    {.depth = &maps.depth, .entry = maps.entry ? &maps.entry : nullptr, .viewBuffer = &maps.views,
-                     .views = maps.viewList, .firstView = 0, .viewCount = static_cast<std::uint32_t>(count),
-                     .atlasSize = frame.atlas.size});
+    if (assigned.newImage) {
+        const auto renew = [&](gpu::Image& image, const char* name, VkFormat format) {
+            const auto size = static_cast<std::uint32_t>(maps.size);
+            gpu::Image renewed(*frame.device, {.name = name, .format = format, .width = size, .height = size,
+                                               .layers = frame.lightMapLayers.layers()});
+            for (const LightMapLayers::Move& move : assigned.moves) {
+                frame.commands->copy(image.layer(move.from), renewed.layer(move.to));
+            }
+            image = std::move(renewed);
+        };
+        renew(maps.depth, "light depth", VK_FORMAT_D32_SFLOAT);
+        if (frame.needs[Need::translucency]) renew(maps.entry, "light entry points", VK_FORMAT_R32_UINT);
+    }
+    maps.drawn = static_cast<int>(assigned.draw.size());
+    for (std::size_t i = 0; i < assigned.draw.size();) {
+        const std::uint32_t first = assigned.draw[i];
+        std::uint32_t count = 0;
+        for (; i < assigned.draw.size() && assigned.draw[i] == first + count; ++i) ++count;
+        recordLightMaps(*frame.device, *frame.commands, frame.scene.buffers,
+                        {.depth = &maps.depth, .entry = maps.entry ? &maps.entry : nullptr, .viewBuffer = &maps.views,
+                         .views = maps.viewList, .firstView = first, .viewCount = count, .atlasSize = frame.atlas.size});
+    }
 }
 
 void surfaceRow(FrameContext& frame) {
-    const bool reduced = frame.settings->reducedLevels && frame.settings->chain == Chain::exact;
     frame.surface = recordSurface(*frame.device, *frame.commands, frame.scene.buffers, frame.scene.charts,
-                                  frame.atlas.size, levelShifts(frame.scene.charts, reduced), frame.tiles);
+                                  frame.atlas.size, levelShifts(frame.scene.charts, reducesLevels(*frame.settings)), frame.tiles);
 }
 
-// Calls body(tile) for the parts of the picture, with room for one of them in frame.viewTile.
+// Calls body(tile) for the parts of the picture.
 template <class Body>
 void forEachViewTile(FrameContext& frame, Body body) {
-    const glm::ivec2 picture(frame.settings->width, frame.settings->height);
+    const glm::ivec2 picture = pictureSize(frame);
     const int step = tileSize(frame.scene.buffers, kSupersampling);
-    if (!frame.viewTile.camera) {
-        frame.viewTile = makeTileBuffers(*frame.device, frame.scene.buffers, glm::min(glm::ivec2(step), picture),
-                                         kSupersampling);
-    }
     for (int y = 0; y < picture.y; y += step) {
         for (int x = 0; x < picture.x; x += step) {
             const glm::ivec2 origin(x, y);
@@ -143,10 +139,6 @@ void neededTexelsRow(FrameContext& frame) {
 }
 
 void oppositeRow(FrameContext& frame) {
-    const std::vector<shared::OppositeVertex> vertices =
-        findOpposite(*frame.input->scene, frame.geometry, frame.atlas);
-    frame.oppositeVertices = gpu::Buffer(*frame.device, {.name = "opposite sides", .bytes = vertices.size() * sizeof(vertices[0])});
-    frame.commands->upload(frame.oppositeVertices, vertices);
     recordOpposite(*frame.device, *frame.commands, frame.scene.buffers, frame.oppositeVertices, frame.tiles,
                    frame.surface);
 }
@@ -157,7 +149,7 @@ void environmentVisibilityRow(FrameContext& frame) {
     const VisibilityInput input{.scene = &frame.scene.buffers,
                                 .surface = frame.surface.size > 0 ? &frame.surface : nullptr,
                                 .tiles = &frame.tiles,
-                                .draws = frame.geometry.drawInfos,
+                                .draws = frame.scene.draws,
                                 .vertexCounts = vertexCounts,
                                 .groups = frame.groups,
                                 .casters = frame.geometry.bounds,
@@ -168,13 +160,13 @@ void environmentVisibilityRow(FrameContext& frame) {
     const EnvironmentSettings& settings = frame.input->rig.environment;
     std::vector<glm::dvec3> directions;
     std::vector<glm::vec4> parts;  // of the sky
-    for (const VisibilityDirection& part : visibilityDirections(*frame.environment, shared::VISIBILITY_DIRECTIONS)) {
+    for (const VisibilityDirection& part : visibilityDirections(*frame.lighting.environment, shared::VISIBILITY_DIRECTIONS)) {
         directions.push_back(rotateAboutY(part.direction, settings.rotation));
         parts.emplace_back(directions.back(), part.solidAngle);
     }
     std::vector<shared::EnvironmentDirection> arriving;
-    for (const DirectionalFlux& from :
-         fluxPerDirection(frame.clusters, directions, settings.rotation, settings.intensity)) {
+    // Shares do not depend on how strong the light is.
+    for (const DirectionalFlux& from : fluxPerDirection(frame.clusters, directions, settings.rotation, 1)) {
         arriving.push_back({glm::vec3(from.flux), glm::vec3(from.direction)});
     }
     frame.visibility = recordEnvironmentVisibility(*frame.device, *frame.commands, input, parts);
@@ -224,26 +216,120 @@ void compositeRow(FrameContext& frame) {
     });
 }
 
+// They free what the rows wrote, once more below.
+
+void forgetOccluders(FrameContext& frame) { frame.scene.buffers.proxyIndices = {}; }
+void forgetProfiles(FrameContext& frame) { frame.scene.buffers.gaussians = {}; }
+void forgetEnvironmentMaps(FrameContext& frame) { frame.environmentMaps = {}; }
+void forgetSkyClusters(FrameContext& frame) { frame.clusters = {}; }
+void forgetEnvironmentSettings(FrameContext& frame) { frame.environmentSettings = {}; }
+void forgetOppositeVertices(FrameContext& frame) { frame.oppositeVertices = {}; }
+void forgetViewBuffers(FrameContext& frame) { frame.viewTile = {}; }
+void forgetTarget(FrameContext& frame) { frame.target = {}; }
+void forgetSurface(FrameContext& frame) { frame.surface = {}, frame.tiles = {}; }
+void forgetOpposite(FrameContext& frame) { frame.surface.opposite = {}; }
+void forgetThickness(FrameContext& frame) { frame.skin.entry = {}; }
+void forgetVisibility(FrameContext& frame) { frame.visibility = {}; }
+void forgetLevels(FrameContext& frame) { frame.skin.levels = {}; }
+void forgetExitance(FrameContext& frame) { frame.skin.exitance = {}; }
+void forgetIrradiance(FrameContext& frame) {
+    frame.skin.irradiance = {}, frame.skin.incident = {}, frame.skin.visibility = {};
+}
+void forgetLightMaps(FrameContext& frame) {
+    frame.lightMapLayers.forget();
+    frame.lights.depth = {}, frame.lights.entry = {}, frame.lights.views = {}, frame.lights.viewList.clear();
+}
+
+std::vector<PassRow> rowsBeforeTheFrame() {
+    using I = Input;
+    using R = Resource;
+    return {
+        {.name = "environment_maps", .phase = Phase::alone, .need = Need::environment,
+         .inputs = {I::environment, I::skinLayer}, .reads = {}, .writes = {R::environmentMaps},
+         .record = makeEnvironmentMaps, .forget = forgetEnvironmentMaps},
+        {.name = "sky_clusters", .phase = Phase::alone, .need = Need::environment, .inputs = {I::environment},
+         .reads = {}, .writes = {R::skyClusters}, .record = makeSkyClusters, .forget = forgetSkyClusters},
+        {.name = "environment_settings", .phase = Phase::upload, .need = Need::environment,
+         .inputs = {I::environmentRotation, I::environmentPower}, .reads = {R::environmentMaps},
+         .writes = {R::environmentSettings}, .record = uploadEnvironmentSettings, .forget = forgetEnvironmentSettings},
+        {.name = "meshes", .phase = Phase::upload, .need = Need::always, .inputs = {I::geometry},
+         .reads = {}, .writes = {R::meshes}, .record = uploadMeshes, .forget = forgetMeshes},
+        {.name = "sky_occluders", .phase = Phase::upload, .need = Need::environment, .inputs = {}, .reads = {R::meshes},
+         .writes = {R::occluders}, .record = uploadOccluders, .forget = forgetOccluders},
+        {.name = "textures", .phase = Phase::upload, .need = Need::always, .inputs = {I::textures}, .reads = {},
+         .writes = {R::textures}, .record = uploadSceneTextures, .forget = forgetTextures},
+        {.name = "materials", .phase = Phase::upload, .need = Need::always,
+         .inputs = {I::materials, I::skinLayer, I::skinMix, I::profiles}, .reads = {R::meshes, R::textures},
+         .readsIf = {R::occluders}, .writes = {R::materials}, .record = uploadMaterials},
+        {.name = "atlas_layout", .phase = Phase::upload, .need = Need::skin, .inputs = {I::atlasDetail},
+         .reads = {R::meshes}, .writes = {R::layout}, .record = uploadLayout, .forget = forgetLayout},
+        {.name = "draws", .phase = Phase::upload, .need = Need::always, .inputs = {}, .reads = {R::meshes},
+         .readsIf = {R::layout}, .writes = {R::draws}, .record = uploadDraws},
+        {.name = "profiles", .phase = Phase::upload, .need = Need::skin, .inputs = {I::profiles}, .reads = {R::layout},
+         .writes = {R::profiles}, .record = uploadProfiles, .forget = forgetProfiles},
+        {.name = "opposite_sides", .phase = Phase::upload, .need = Need::oppositeSides, .inputs = {I::profiles},
+         .reads = {R::layout}, .writes = {R::oppositeVertices}, .record = makeOppositeVertices,
+         .forget = forgetOppositeVertices},
+        {.name = "lights", .phase = Phase::upload, .need = Need::always, .inputs = {I::lightPlaces, I::lightPower},
+         .reads = {R::meshes}, .writes = {R::lights}, .record = uploadLightSamples},
+        {.name = "view_buffers", .phase = Phase::upload, .need = Need::always, .inputs = {I::pictureSize, I::materials},
+         .reads = {R::meshes}, .writes = {R::viewBuffers}, .record = makeViewBuffers, .forget = forgetViewBuffers},
+        {.name = "picture", .phase = Phase::upload, .need = Need::always, .inputs = {I::pictureSize, I::aovs},
+         .reads = {}, .writes = {R::target}, .record = makeTarget, .forget = forgetTarget},
+    };
+}
+
+std::vector<PassRow> rowsOfTheFrame() {
+    using I = Input;
+    using R = Resource;
+    return {
+        {.name = "surface", .phase = Phase::frame, .need = Need::skin, .inputs = {I::materials, I::levels},
+         .reads = {R::meshes, R::layout, R::draws, R::textures}, .writes = {R::surface}, .record = surfaceRow,
+         .forget = forgetSurface},
+        {.name = "visible", .phase = Phase::frame, .need = Need::hiddenSkin, .inputs = {I::camera, I::materials},
+         .reads = {R::viewBuffers, R::surface}, .writes = {R::seen}, .record = visibleRow},
+        {.name = "opposite", .phase = Phase::frame, .need = Need::oppositeSides, .inputs = {I::profiles},
+         .reads = {R::surface, R::oppositeVertices}, .readsIf = {R::seen}, .updates = {R::seen},
+         .writes = {R::thickness}, .record = oppositeRow, .forget = forgetOpposite},
+        {.name = "light_maps", .phase = Phase::frame, .need = Need::shadows,
+         .inputs = {I::lightPlaces, I::lightMapSize, I::materials}, .reads = {R::meshes, R::textures},
+         .readsIf = {R::layout}, .variants = {Need::translucency}, .writes = {R::lightMaps}, .record = lightMapsRow,
+         .forget = forgetLightMaps, .amends = true},
+        {.name = "thickness", .phase = Phase::frame, .need = Need::translucency,
+         .inputs = {I::lightPlaces, I::profiles}, .reads = {R::surface, R::lightMaps}, .readsIf = {R::seen},
+         .updates = {R::seen}, .writes = {R::thickness}, .record = thicknessRow, .forget = forgetThickness},
+        {.name = "needed_texels", .phase = Phase::frame, .need = Need::hiddenSkin, .inputs = {I::profiles},
+         .reads = {R::surface, R::seen}, .readsIf = {R::thickness}, .updates = {R::seen}, .writes = {R::tiles},
+         .record = neededTexelsRow},
+        {.name = "environment_visibility", .phase = Phase::frame, .need = Need::environment,
+         .inputs = {I::environment, I::environmentRotation, I::materials},
+         .reads = {R::meshes, R::draws, R::textures, R::occluders, R::skyClusters},
+         .readsIf = {R::surface, R::tiles}, .writes = {R::visibility}, .record = environmentVisibilityRow,
+         .forget = forgetVisibility},
+        {.name = "irradiance", .phase = Phase::frame, .need = Need::litSkin, .inputs = {I::skinLayer, I::skinMix},
+         .reads = {R::surface, R::lights},
+         .readsIf = {R::tiles, R::thickness, R::lightMaps, R::visibility, R::environmentMaps, R::environmentSettings},
+         .variants = {Need::lights}, .writes = {R::irradiance}, .record = irradianceRow, .forget = forgetIrradiance},
+        {.name = "diffusion", .phase = Phase::frame, .need = Need::litSkin, .inputs = {I::profiles, I::chain},
+         .reads = {R::surface, R::irradiance}, .writes = {R::levels}, .record = diffusionRow, .forget = forgetLevels},
+        {.name = "exitance", .phase = Phase::frame, .need = Need::litSkin, .inputs = {I::profiles, I::chain},
+         .reads = {R::levels}, .readsIf = {R::thickness}, .writes = {R::exitance}, .record = exitanceRow,
+         .forget = forgetExitance},
+        {.name = "composite", .phase = Phase::frame, .need = Need::always, .inputs = {I::camera},
+         .reads = {R::meshes, R::textures, R::materials, R::draws, R::lights, R::viewBuffers, R::target},
+         .readsIf = {R::exitance, R::lightMaps, R::visibility, R::environmentMaps, R::environmentSettings},
+         .writes = {R::picture}, .record = compositeRow},
+    };
+}
+
 }  // namespace
 
-void uploadFrameLights(FrameContext& frame) { uploadLights(frame); }
-
 const std::vector<PassRow>& passTable() {
-    using R = Resource;
-    static const std::vector<PassRow> table{
-        // name                     need                reads                        reads if written              writes
-        {"surface",                 Need::skin,         {},                          {},                           {R::surface},    surfaceRow},
-        {"visible",                 Need::hiddenSkin,   {R::surface},                {},                           {R::seen},       visibleRow},
-        {"opposite",                Need::oppositeSides, {R::surface},               {R::seen},                    {R::thickness},  oppositeRow},
-        {"light_maps",              Need::shadows,      {},                          {},                           {R::lightMaps},  lightMapsRow},
-        {"thickness",               Need::translucency, {R::surface, R::lightMaps},  {R::seen},                    {R::thickness},  thicknessRow},
-        {"needed_texels",           Need::litSkin,      {R::surface},                {R::seen, R::thickness},      {R::tiles},      neededTexelsRow},
-        {"environment_visibility",  Need::environment,  {},                          {R::surface, R::tiles},       {R::visibility}, environmentVisibilityRow},
-        {"irradiance",              Need::litSkin,      {R::surface, R::tiles},      {R::thickness, R::lightMaps, R::visibility}, {R::irradiance}, irradianceRow},
-        {"diffusion",               Need::litSkin,      {R::surface, R::irradiance}, {},                           {R::levels},     diffusionRow},
-        {"exitance",                Need::litSkin,      {R::levels},                 {R::thickness},               {R::exitance},   exitanceRow},
-        {"composite",               Need::always,       {},                          {R::exitance, R::lightMaps, R::visibility}, {R::picture}, compositeRow},
-    };
+    static const std::vector<PassRow> table = [] {
+        std::vector<PassRow> rows = rowsBeforeTheFrame();
+        for (PassRow& row : rowsOfTheFrame()) rows.push_back(std::move(row));
+        return rows;
+    }();
     return table;
 }
 

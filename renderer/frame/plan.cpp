@@ -28,12 +28,13 @@ Needs computeNeeds(const NeedsInput& input) {
     set(Need::litSkin, skin && lit,
         !skin ? "nothing is skin" : !lit ? "no light reaches the skin" : "skin is lit");
     const bool wholeSkin = input.chain == Chain::published;
-    set(Need::hiddenSkin, skin && lit && input.prune && !wholeSkin,
-        !skin          ? "nothing is skin"
-        : !lit         ? "no light reaches the skin"
-        : !input.prune ? "--no-prune: skin is lit whether it is seen or not"
-        : wholeSkin    ? "the published chain blurs the whole atlas"
-                       : "only what the picture shows of the skin is worth lighting");
+    set(Need::hiddenSkin, skin && lit && input.prune && !input.anyView && !wholeSkin,
+        !skin           ? "nothing is skin"
+        : !lit          ? "no light reaches the skin"
+        : !input.prune  ? "--no-prune: skin is lit whether it is seen or not"
+        : input.anyView ? "skin is lit for every view"
+        : wholeSkin     ? "the published chain blurs the whole atlas"
+                        : "only what the picture shows of the skin is worth lighting");
     set(Need::lights, lights, lights ? count(input.lightSamples, "light sample") : "no lights");
     set(Need::shadows, input.shadowedSamples > 0,
         input.shadowedSamples > 0 ? count(input.shadowedSamples, "light sample") + " with shadows"
@@ -57,7 +58,7 @@ Plan makePlan(const Needs& needs) {
     std::set<Resource> written;
     for (const PassRow& row : passTable()) {
         if (!needs[row.need]) {
-            plan.leftOut.push_back({row.name, needs.why(row.need)});
+            if (row.phase == Phase::frame) plan.leftOut.push_back({row.name, needs.why(row.need)});
             continue;
         }
         for (Resource resource : row.reads) {

@@ -32,21 +32,59 @@ struct NeedsInput {
     Merge merge = Merge::min;
     Chain chain = Chain::exact;
     bool prune = true;
+    bool anyView = false;  // skin is lit for every view, not for one
 };
 Needs computeNeeds(const NeedsInput& input);
 
-// What passes hand to one another.
+// What a picture is made of, in parts that change apart from one another. A row names those that it reads, and runs again
+// only when one of them has changed (frame/inputs.h).
+enum class Input {
+    geometry,             // meshes, where they stand, which of them are skin, and its size in mm
+    textures,             // images, and which of them are sampled
+    materials,            // all that a material has but what follows
+    skinLayer,            // roughness and specular scale of skin
+    skinMix,              // how much of its albedo light meets before it scatters
+    profiles,             // diffusion profiles as they are used, and which skin is translucent
+    levels,               // of diffusion: how many there are, and their resolutions
+    chain,                // how light is diffused
+    atlasDetail,          // what the layout of the atlas is chosen from
+    lightMapSize,
+    lightPlaces,          // of the light samples: all but their light
+    lightPower,           // and that
+    environment,          // what is left of it once light samples are drawn
+    environmentRotation,
+    environmentPower,
+    camera,
+    pictureSize,
+    aovs
+};
+inline constexpr int kInputCount = 18;
+
+// What rows hand to one another.
 enum class Resource {
+    // Made before the frame
+    environmentMaps, environmentSettings, skyClusters, meshes, occluders, textures, materials, layout, draws, profiles,
+    oppositeVertices, lights, viewBuffers, target,
+    // Written by passes
     surface, seen, lightMaps, thickness, tiles, visibility, irradiance, levels, exitance, picture
 };
 
+// When a row runs: submitting commands of its own, with all uploads before the frame, or as a pass of the frame.
+enum class Phase { alone, upload, frame };
+
 struct PassRow {
     const char* name;
+    Phase phase;
     Need need;
-    std::vector<Resource> reads;     // must have been written by a row above that runs
-    std::vector<Resource> readsIf;   // read when some row above wrote it
+    std::vector<Input> inputs;
+    std::vector<Resource> reads;         // must have been written by a row above that runs
+    std::vector<Resource> readsIf = {};  // read when some row above wrote it
+    std::vector<Need> variants = {};     // other needs that change what it does
+    std::vector<Resource> updates = {};  // changed in place: all rows that write or update one of these run together
     std::vector<Resource> writes;
     void (*record)(FrameContext&);
+    void (*forget)(FrameContext&) = nullptr;  // frees what it wrote: before it runs again, and when it is left out
+    bool amends = false;                      // it replaces only what has changed of what it wrote, and frees that itself
 };
 
 // Every pass there is, in the order in which they run.
@@ -55,7 +93,7 @@ const std::vector<PassRow>& passTable();
 struct Plan {
     std::vector<const PassRow*> rows;
     std::vector<std::string> reasons;  // of rows
-    std::vector<LeftOut> leftOut;
+    std::vector<LeftOut> leftOut;      // rows of the frame, and why
 };
 
 // The rows whose need is met. Throws std::logic_error when a row reads what no row above writes.

@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstring>
-#include <limits>
+#include <optional>
 
-#include "renderer/core/error.h"
 #include "renderer/frame/camera.h"
 #include "renderer/frame/frame.h"
+#include "renderer/frame/inputs.h"
+#include "renderer/frame/results.h"
 #include "renderer/gpu/device.h"
-#include "renderer/passes/light_views.h"
-#include "renderer/scene/environment_samples.h"
-#include "renderer/scene/light_samples.h"
 
 namespace cutis {
-
-void uploadFrameLights(FrameContext& frame);
-
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -26,271 +19,200 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Texels a little finer than the pixels where the character stands; never finer than the narrowest blur of skin.
-// A character that the picture does not show needs hardly any.
-double wantedMmPerTexel(const Character& character, const ViewCameraMetrics& metrics, bool inView) {
-    constexpr double kFinest = 0.08, kOutOfView = 10;
-    if (!inView) return kOutOfView;
-    return std::max(kFinest, 0.9 * metrics.metresPerPixel(character.bounds.centre()) * 1000);
-}
-
-void prepareTarget(FrameContext& frame) {
-    const auto width = static_cast<std::uint32_t>(frame.settings->width);
-    const auto height = static_cast<std::uint32_t>(frame.settings->height);
-    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    frame.target.picture =
-        gpu::Image(*frame.device, {.name = "picture", .format = format, .width = width, .height = height});
-    frame.target.aovLayer.fill(-1);
-    int layers = 0;
-    for (int i = 0; i < kAovCount; ++i) {
-        const auto& wanted = frame.settings->aovs;
-        if (std::find(wanted.begin(), wanted.end(), kAovNames[i]) != wanted.end()) frame.target.aovLayer[i] = layers++;
+NeedsInput factsOf(const FrameContext& frame) {
+    const Scene& scene = *frame.input->scene;
+    NeedsInput facts;
+    facts.merge = frame.settings->merge;
+    facts.chain = frame.settings->chain;
+    facts.prune = frame.settings->prune;
+    facts.anyView = frame.anyView;
+    facts.environment = frame.lighting.environment != nullptr;
+    facts.lightSamples = static_cast<int>(frame.lighting.samples.size());
+    for (const LightSample& sample : frame.lighting.samples) facts.shadowedSamples += sample.shadow;
+    for (const GeometryDraw& draw : frame.geometry.draws) facts.skinDraws += draw.skin;
+    for (const int material : skinMaterials(scene, frame.geometry)) {
+        facts.translucentSkinMaterials += scene.materials[material].skin->translucency;
     }
-    if (layers > 0) {
-        frame.target.aovs = gpu::Image(*frame.device, {.name = "aovs", .format = format, .width = width,
-                                                       .height = height, .layers = static_cast<std::uint32_t>(layers)});
-    }
+    return facts;
 }
 
-// Channels that an AOV has of the four that the shader writes.
-int aovChannels(int aov) {
-    constexpr int kChannels[kAovCount] = {3, 3, 3, 1, 3, 3, 3, 1, 1};
-    return kChannels[aov];
-}
+}  // namespace
 
-Picture toPicture(std::span<const float> rgba, int width, int height, int channels) {
-    Picture picture{width, height, channels, {}};
-    picture.values.resize(std::size_t(width) * height * channels);
-    for (std::size_t i = 0; i < std::size_t(width) * height; ++i) {
-        std::copy_n(&rgba[i * 4], channels, &picture.values[i * channels]);
-    }
-    return picture;
-}
+struct Renderer::State {
+    FrameContext frame;
+    Kept kept;
+    std::uint64_t geometry = 0;  // hashGeometry of frame.geometry
+    std::map<const PassRow*, std::uint64_t> bytes;
+    SkinFigures skin;
 
-std::uint64_t countNonfinite(std::span<const float> values) {
-    return static_cast<std::uint64_t>(
-        std::count_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); }));
-}
+    RenderResult render(const RenderInput& input, const RenderSettings& settings);
 
-struct FrameReadbacks {
-    gpu::Readback picture, aovs, exitance, tileCounts;
+  private:
+    void read();
+    void drop(const Plan& plan);
+    bool record(const PassRow& row, const Changes& changes);
+    void prepare(const Plan& plan, const std::vector<RowDecision>& decisions);
+    std::vector<gpu::PassTiming> drawFrame(const Plan& plan, const std::vector<RowDecision>& decisions,
+                                           Readbacks& readbacks);
+    PassStats statsOf(const PassRow& row, const std::string& why, bool ran) const;
 };
 
-// `timings`: of each time that the frame was drawn.
-void fillStats(const FrameContext& frame, const Plan& plan, const std::vector<std::vector<gpu::PassTiming>>& timings,
-               RenderStats& stats) {
-    stats.device = frame.device->info().name;
+// All that decisions follow from.
+void Renderer::State::read() {
+    const RenderInput& input = *frame.input;
+    const std::uint64_t key = hashGeometry(input);
+    if (geometry != key) {
+        geometry = 0;
+        frame.geometry = flattenScene(*input.scene);
+        frame.groups.clear();
+        for (const ReceiverGroup& group : frame.geometry.receiverGroups) frame.groups.push_back(group.bounds);
+        frame.detail = {};
+        geometry = key;
+    }
+    frame.camera = viewCamera(input.camera, frame.geometry.origin, frame.geometry.bounds,
+                              {frame.settings->width, frame.settings->height});
+    chooseDetail(frame);
+    readLighting(frame);
+    const NeedsInput facts = factsOf(frame);
+    frame.needs = computeNeeds(facts);
+    chooseLightMapSize(frame, facts.shadowedSamples * frame.groups.size());
+}
+
+// Frees what the plan does not write any more.
+void Renderer::State::drop(const Plan& plan) {
+    for (const PassRow* row : kept.leftOver(plan)) {
+        if (row->forget) row->forget(frame);
+        bytes.erase(row);
+        kept.forgetRow(row);
+    }
+}
+
+bool Renderer::State::record(const PassRow& row, const Changes& changes) {
+    if (row.forget && (changes.first || !row.amends)) row.forget(frame);
+    const std::uint64_t before = frame.device->bytesAllocated();
+    frame.changes = &changes;
+    row.record(frame);
+    frame.changes = nullptr;
+    if (changes.first || !row.amends) bytes[&row] = frame.device->bytesAllocated() - before;
+    return true;
+}
+
+void Renderer::State::prepare(const Plan& plan, const std::vector<RowDecision>& decisions) {
     for (std::size_t i = 0; i < plan.rows.size(); ++i) {
-        PassStats pass{plan.rows[i]->name, 0, 0, plan.reasons[i]};
-        for (const std::vector<gpu::PassTiming>& repeat : timings) {
-            for (const gpu::PassTiming& timing : repeat) {
-                if (timing.name != pass.name) continue;
-                pass.runs = timing.runs;
-                pass.gpuMs = timing.milliseconds;
-                pass.repeatedMs.push_back(timing.milliseconds);
-            }
-        }
-        stats.passes.push_back(pass);
+        if (plan.rows[i]->phase == Phase::alone && decisions[i].run) record(*plan.rows[i], decisions[i].changes);
     }
-    stats.leftOut = plan.leftOut;
-    if (!frame.needs[Need::translucency]) {
-        stats.leftOut.push_back({"translucency", frame.needs.why(Need::translucency)});
+    std::optional<gpu::Commands> commands;
+    for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+        if (plan.rows[i]->phase != Phase::upload || !decisions[i].run) continue;
+        if (!commands) frame.commands = &commands.emplace(*frame.device);
+        record(*plan.rows[i], decisions[i].changes);
     }
-    stats.atlasWidth = stats.atlasHeight = frame.atlas.size;
-    stats.atlasMmPerTexel = frame.atlas.mmPerTexel;
-    for (const Light& light : frame.input->rig.lights) stats.lights += light.enabled;
-    stats.lightSamples = static_cast<int>(frame.lightSamples.size());
-    stats.characters = static_cast<int>(frame.input->scene->characters.size());
-    stats.gaussians = frame.scene.gaussians;
-    stats.bytesGpu = frame.device->peakBytes();
+    if (commands) commands->submitAndWait();
+    frame.commands = nullptr;
 }
 
-void takePictures(const FrameContext& frame, const FrameReadbacks& readbacks, RenderResult& result) {
-    const int width = frame.settings->width, height = frame.settings->height;
-    const std::vector<float> picture = readbacks.picture.as<float>();
-    result.stats.nonfinite += countNonfinite(picture);
-    result.picture = Picture{width, height, 4, picture};
-    if (frame.target.aovs) {
-        const std::vector<float> all = readbacks.aovs.as<float>();
-        const std::size_t layerSize = std::size_t(width) * height * 4;
-        for (int i = 0; i < kAovCount; ++i) {
-            if (frame.target.aovLayer[i] < 0) continue;
-            const std::span layer = std::span(all).subspan(frame.target.aovLayer[i] * layerSize, layerSize);
-            result.stats.nonfinite += countNonfinite(layer);
-            result.aovs[kAovNames[i]] = toPicture(layer, width, height, aovChannels(i));
-        }
-    }
-    if (frame.skin.exitance) {
-        const std::vector<float> exitance = readbacks.exitance.as<float>();
-        result.stats.nonfinite += countNonfinite(exitance);
-        const CoveredTexels texels = coveredTexels(readbacks.tileCounts);
-        result.stats.atlasTexelsCovered = texels.all;
-        result.stats.atlasTexelsLit = texels.lit;
-    }
-}
-
-// Positions on the device are relative to the scene's origin.
-void moveToWorld(RenderResult& result, const glm::dvec3& origin) {
-    const auto found = result.aovs.find("position");
-    if (found == result.aovs.end()) return;
-    Picture& position = found->second;
-    for (std::size_t i = 0; i < position.values.size() / 3; ++i) {
-        if (result.picture.values[i * 4 + 3] <= 0) continue;
-        for (int c = 0; c < 3; ++c) {
-            position.values[i * 3 + c] = static_cast<float>(position.values[i * 3 + c] + origin[c]);
-        }
-    }
-}
-
-void prepareEnvironment(FrameContext& frame, const RenderInput& input, EnvironmentSplit& split) {
-    const EnvironmentSettings& settings = input.rig.environment;
-    if (!input.environment || !settings.enabled || !(settings.intensity > 0)) return;
-    frame.environment = input.environment;
-    if (settings.shadowSamples > 0) {
-        split = splitEnvironment(*input.environment, settings.shadowSamples, settings.rotation, settings.intensity);
-        frame.environment = &split.residual;
-        frame.lightSamples.insert(frame.lightSamples.end(), split.samples.begin(), split.samples.end());
-    }
-}
-
-void uploadEnvironment(FrameContext& frame) {
-    const EnvironmentSettings& settings = frame.input->rig.environment;
-    const double angle = settings.rotation * 3.14159265358979323846 / 180;
-    std::vector<shared::EnvironmentSource> sources = frame.environmentMaps.mediumSources;
-    const std::vector<shared::EnvironmentSource>& rough = frame.environmentMaps.roughSources;
-    const auto mediumCount = static_cast<std::uint32_t>(sources.size());
-    sources.insert(sources.end(), rough.begin(), rough.end());
-    const std::vector<shared::EnvironmentSettingsData> data{{static_cast<float>(std::cos(angle)),
-                                                             static_cast<float>(std::sin(angle)),
-                                                             static_cast<float>(settings.intensity),
-                                                             mediumCount, static_cast<std::uint32_t>(rough.size())}};
-    frame.environmentSettings =
-        gpu::Buffer(*frame.device, {.name = "environment settings",
-                                    .bytes = sizeof(data[0]) + sources.size() * sizeof(sources[0])});
-    frame.commands->upload(frame.environmentSettings, data);
-    if (!sources.empty()) frame.commands->upload(frame.environmentSettings, sources, sizeof(data[0]));
-}
-
-// Draws the frame once, from nothing but the uploaded scene.
-std::vector<gpu::PassTiming> drawFrame(FrameContext& frame, const Plan& plan, FrameReadbacks& readbacks) {
-    frame.forgetFrame();
+std::vector<gpu::PassTiming> Renderer::State::drawFrame(const Plan& plan, const std::vector<RowDecision>& decisions,
+                                                        Readbacks& readbacks) {
     readbacks = {};
     gpu::Commands commands = frame.device->begin();
     frame.commands = &commands;
-    uploadFrameLights(frame);
-    if (frame.needs[Need::environment]) uploadEnvironment(frame);
-    prepareTarget(frame);
-    for (const PassRow* row : plan.rows) {
-        commands.beginPass(row->name);
-        row->record(frame);
+    bool lit = false;
+    for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+        const PassRow& row = *plan.rows[i];
+        if (row.phase != Phase::frame || !decisions[i].run) continue;
+        commands.beginPass(row.name);
+        record(row, decisions[i].changes);
         commands.endPass();
+        lit |= row.need == Need::litSkin;
     }
-    readbacks.picture = commands.readback(frame.target.picture);
-    if (frame.target.aovs) readbacks.aovs = commands.readback(frame.target.aovs);
-    if (frame.skin.exitance) {
-        readbacks.exitance = commands.readback(frame.skin.exitance);
-        readbacks.tileCounts = commands.readback(frame.tiles.counts);
-    }
+    readbacks = recordReadbacks(frame, lit);
     commands.submitAndWait();
     frame.commands = nullptr;
     return commands.timings();
 }
 
-}  // namespace
+PassStats Renderer::State::statsOf(const PassRow& row, const std::string& why, bool ran) const {
+    PassStats stats{.name = row.name, .runs = ran ? 1 : 0};
+    stats.reason = ran ? why : "unchanged: " + describeReads(row);
+    const auto found = bytes.find(&row);
+    if (found != bytes.end()) stats.bytes = found->second;
+    return stats;
+}
 
-RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const RenderSettings& settings) {
+RenderResult Renderer::State::render(const RenderInput& input, const RenderSettings& settings) {
     const Clock::time_point start = Clock::now();
+    gpu::Device& device = *frame.device;
     device.resetPeak();
-    const Scene& scene = *input.scene;
-    FrameContext frame;
-    frame.device = &device;
     frame.input = &input;
     frame.settings = &settings;
-    frame.geometry = flattenScene(scene);
-    frame.camera = viewCamera(input.camera, frame.geometry.origin, frame.geometry.bounds,
-                              {settings.width, settings.height});
-    const ViewCameraMetrics metrics(input.camera, {settings.width, settings.height});
-    AtlasOptions atlasOptions{.size = settings.irradianceSize};
-    for (const Character& character : scene.characters) {
-        const glm::vec3 low(character.bounds.min - frame.geometry.origin), high(character.bounds.max - frame.geometry.origin);
-        const bool inView = reaches(frame.camera.worldToClip, low, high);
-        atlasOptions.mmPerTexelWanted.push_back(wantedMmPerTexel(character, metrics, inView));
-        if (inView) {
-            frame.pixelsAcross =
-                std::max(frame.pixelsAcross, glm::length(character.bounds.size()) /
-                                                 metrics.metresPerPixel(character.bounds.centre()));
-        }
-    }
-    frame.atlas = layOutAtlas(scene, frame.geometry, atlasOptions);
-    for (const ReceiverGroup& group : frame.geometry.receiverGroups) frame.groups.push_back(group.bounds);
-
-    frame.lightSamples = sampleLights(input.rig);
-    EnvironmentSplit split;
-    prepareEnvironment(frame, input, split);
-    // Without pruning, what is missing is there and black, so that every pass runs and nothing changes.
-    const Environment black{"black", 2, 1, std::vector<glm::vec3>(2, glm::vec3(0))};
-    if (!settings.prune) {
-        if (!frame.environment) frame.environment = &black;
-        if (frame.lightSamples.empty()) frame.lightSamples.push_back({.light = 0, .directional = true});
-    }
-
-    NeedsInput needs;
-    needs.merge = settings.merge;
-    needs.chain = settings.chain;
-    needs.environment = frame.environment != nullptr;
-    needs.prune = settings.prune;
-    needs.lightSamples = static_cast<int>(frame.lightSamples.size());
-    for (const LightSample& sample : frame.lightSamples) needs.shadowedSamples += sample.shadow;
-    std::vector<bool> seen(scene.materials.size(), false);
-    for (const GeometryDraw& draw : frame.geometry.draws) {
-        needs.skinDraws += draw.skin;
-        if (draw.skin && !seen[draw.material] && scene.materials[draw.material].skin->translucency) {
-            ++needs.translucentSkinMaterials;
-        }
-        seen[draw.material] = true;
-    }
-    frame.needs = computeNeeds(needs);
+    read();
     const Plan plan = makePlan(frame.needs);
-    if (!frame.needs[Need::litSkin]) {
-        // Skin that no light reaches is as black as anything else, and needs no atlas to be so.
-        for (shared::DrawInfo& draw : frame.geometry.drawInfos) draw.chart = shared::NO_CHART;
-    }
-
-    if (frame.needs[Need::environment]) {
-        // A third of a texel of the finest map that these meshes are drawn into.
-        double texel = std::numeric_limits<double>::infinity();
-        for (const Bounds& group : frame.groups) {
-            texel = std::min(texel, glm::length(group.size()) / kVisibilityMapSize);
+    const InputHashes inputs = hashInputs(frame);
+    std::vector<RowDecision> decisions = kept.decide(plan, frame.needs, inputs);
+    drop(plan);
+    prepare(plan, decisions);
+    const int repeats = std::max(settings.repeats, 1);
+    if (repeats > 1) {
+        for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+            if (plan.rows[i]->phase == Phase::frame) decisions[i] = {true, {}};
         }
-        frame.proxyError = 0.3 * texel;
-        addOcclusionProxies(frame.geometry, frame.proxyError);
     }
-
     RenderResult result;
-    {
-        gpu::Commands commands = device.begin();
-        frame.commands = &commands;
-        frame.scene = uploadScene(device, commands, scene, frame.geometry, frame.atlas, settings.gaussians);
-        commands.submitAndWait();
-    }
-    if (frame.needs[Need::environment]) {
-        frame.environmentMaps = prefilterEnvironment(device, *frame.environment, frame.scene.skins);
-        frame.clusters = clusterEnvironment(*frame.environment);
-    }
     result.stats.loadMs = millisecondsSince(start);
 
     Clock::time_point frameStart;
-    FrameReadbacks readbacks;
+    Readbacks readbacks;
     std::vector<std::vector<gpu::PassTiming>> timings;
-    for (int repeat = 0; repeat < std::max(settings.repeats, 1); ++repeat) {
+    for (int repeat = 0; repeat < repeats; ++repeat) {
         frameStart = Clock::now();
-        timings.push_back(drawFrame(frame, plan, readbacks));
+        timings.push_back(drawFrame(plan, decisions, readbacks));
     }
     result.stats.frameMs = millisecondsSince(frameStart);
-    fillStats(frame, plan, timings, result.stats);
-    takePictures(frame, readbacks, result);
-    moveToWorld(result, frame.geometry.origin);
+    kept.note(plan, frame.needs, hashInputs(frame));  // some follow from the layout that is there now
+
+    for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+        const PassRow& row = *plan.rows[i];
+        PassStats stats = statsOf(row, plan.reasons[i], decisions[i].run);
+        for (const std::vector<gpu::PassTiming>& repeat : timings) {
+            for (const gpu::PassTiming& timing : repeat) {
+                if (timing.name != stats.name) continue;
+                stats.runs = timing.runs;
+                stats.gpuMs = timing.milliseconds;
+                stats.repeatedMs.push_back(timing.milliseconds);
+                if (row.need == Need::shadows) result.stats.lightMapsDrawn = frame.lights.drawn;
+            }
+        }
+        (row.phase == Phase::frame ? result.stats.passes : result.stats.prepared).push_back(std::move(stats));
+    }
+    fillStats(frame, plan, result.stats);
+    takePictures(frame, readbacks, skin, result);
+    frame.input = nullptr;
+    frame.settings = nullptr;
     return result;
+}
+
+Renderer::Renderer(gpu::Device& device, Views views) : device_(device), views_(views) {}
+
+Renderer::~Renderer() = default;
+
+void Renderer::forget() { state_ = nullptr; }
+
+RenderResult Renderer::render(const RenderInput& input, const RenderSettings& settings) {
+    if (!state_) {
+        state_ = std::make_unique<State>();
+        state_->frame.device = &device_;
+        state_->frame.anyView = views_ == Views::any;
+    }
+    try {
+        return state_->render(input, settings);
+    } catch (...) {
+        forget();
+        throw;
+    }
+}
+
+RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const RenderSettings& settings) {
+    return Renderer(device, Renderer::Views::one).render(input, settings);
 }
 
 }  // namespace cutis

@@ -1,8 +1,9 @@
-// One picture of one scene under one rig: what the program's `render`, `compare` and `measure` call.
+// Pictures of scenes under rigs: what the program's `render`, `compare`, `measure` and viewer call.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,8 @@ struct RenderSettings {
     Merge merge = Merge::min;
     Chain chain = Chain::exact;
     bool reducedLevels = true;  // wide Gaussians are blurred at the lower resolution that their width allows
-    int repeats = 1;    // the frame is drawn so often, for its times alone
+    double detail = 1;  // atlas and light maps are as fine as a picture of so many times the pixels along each side asks
+    int repeats = 1;    // all of the frame is drawn so often, for its times alone
     bool prune = true;  // false: run also what could be left out, on neutral inputs
     std::uint32_t seed = 0;
     std::vector<std::string> aovs;  // of kAovNames
@@ -41,19 +43,25 @@ struct RenderSettings {
 inline constexpr const char* kAovNames[] = {"diffuse", "specular", "irradiance", "thickness", "albedo",
                                             "normal",  "position", "depth",      "character"};
 
+// A Renderer finds out by itself what has changed since the picture before, but does not compare vertices and texels:
+// whoever changes meshes, nodes or images of a scene, or the texels of an environment, in place, counts their revision up.
+// Materials, which of them are skin, the rig and the camera are compared by value.
 struct RenderInput {
     const Scene* scene = nullptr;
-    Rig rig;                                  // enabled lights only count; placements resolved (resolvePlacements)
+    std::uint64_t sceneRevision = 0;
+    Rig rig = {};                              // enabled lights only count; placements resolved (resolvePlacements)
     const Environment* environment = nullptr;  // nullptr: none
-    Camera camera;                            // see cameraFor in scene/camera.h
+    std::uint64_t environmentRevision = 0;
+    Camera camera = {};  // see cameraFor in scene/camera.h
 };
 
 struct PassStats {
     std::string name;
-    int runs = 0;
-    double gpuMs = 0;    // of the last frame
-    std::string reason;  // why it runs
+    int runs = 0;          // 0: what it wrote for an earlier picture is still right
+    double gpuMs = 0;      // of the last frame
+    std::string reason = {};  // why it runs, or "unchanged: ..." with what it reads
     std::vector<double> repeatedMs = {};  // of each frame of RenderSettings::repeats
+    std::uint64_t bytes = 0;              // of GPU memory that it wrote or worked in
 };
 
 struct LeftOut {
@@ -64,15 +72,17 @@ struct LeftOut {
 struct RenderStats {
     std::string device;
     std::vector<PassStats> passes;
+    std::vector<PassStats> prepared;  // what was uploaded and filtered before the frame, or was there already
     std::vector<LeftOut> leftOut;
     int atlasWidth = 0, atlasHeight = 0;
     std::uint64_t atlasTexelsCovered = 0;  // that hold skin
     std::uint64_t atlasTexelsLit = 0;      // of them; the others are not seen, nor is their light
     double atlasMmPerTexel = 0;  // median over covered texels
     int lights = 0, lightSamples = 0, characters = 0, gaussians = 0;
+    int lightMaps = 0, lightMapsDrawn = 0;  // in use, and drawn for this picture
     std::uint64_t bytesGpu = 0;
     std::uint64_t nonfinite = 0;  // over all covered texels and pixels of everything written
-    double loadMs = 0, frameMs = 0;
+    double loadMs = 0, frameMs = 0;  // all before the frame; the frame
 };
 
 struct RenderResult {
@@ -81,6 +91,33 @@ struct RenderResult {
     RenderStats stats;
 };
 
+// Draws one picture after another and keeps on the device whatever the next one does not change: uploads, filtered
+// environments, light maps, lit skin. A camera that moves costs the composite alone, a light that moves its own maps and
+// what they light. Where a call throws, the next one starts afresh. Not for several threads.
+class Renderer {
+  public:
+    // any: skin is lit whether this view shows it or not, and texels stay as they are until the view asks for far finer or
+    // coarser ones, so that the camera is free. one: only what the picture shows is lit, which is less.
+    enum class Views { any, one };
+    // The device must outlive it.
+    explicit Renderer(gpu::Device& device, Views views = Views::any);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    // Scene and environment are used during the call alone. Throws Error.
+    RenderResult render(const RenderInput& input, const RenderSettings& settings);
+    // Frees all that is kept.
+    void forget();
+
+  private:
+    struct State;
+    gpu::Device& device_;
+    Views views_;
+    std::unique_ptr<State> state_;
+};
+
+// One picture alone.
 RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const RenderSettings& settings);
 
 }  // namespace cutis

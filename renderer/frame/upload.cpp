@@ -1,10 +1,10 @@
 #include "renderer/frame/upload.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <numeric>
 
-#include "renderer/frame/textures.h"
+#include "renderer/frame/frame.h"
 #include "renderer/gpu/device.h"
 #include "renderer/skin/specular.h"
 #include "renderer/skin/specular_lobes.h"
@@ -33,22 +33,6 @@ constexpr TextureSlot Material::*kSlots[] = {&Material::baseColorTexture, &Mater
                                              &Material::normalTexture, &Material::occlusionTexture,
                                              &Material::emissiveTexture};
 
-// Textures that some drawn material samples. Skin has its own roughness, so its metallic-roughness map never is.
-std::vector<TextureUse> textureUses(const Scene& scene, const Geometry& geometry) {
-    std::vector<TextureUse> uses(scene.textures.size(), TextureUse::none);
-    for (const GeometryDraw& draw : geometry.draws) {
-        const Material& material = scene.materials[draw.material];
-        for (const auto slot : kSlots) {
-            if (draw.skin && slot == &Material::metallicRoughnessTexture) continue;
-            if (!(material.*slot)) continue;
-            TextureUse& use = uses[(material.*slot).texture];
-            const bool normals = slot == &Material::normalTexture && use != TextureUse::values;
-            use = normals ? TextureUse::normals : TextureUse::values;
-        }
-    }
-    return uses;
-}
-
 std::uint32_t usedSlots(const Scene& scene, const Geometry& geometry) {
     std::uint32_t slots = 0;
     for (const GeometryDraw& draw : geometry.draws) {
@@ -59,11 +43,11 @@ std::uint32_t usedSlots(const Scene& scene, const Geometry& geometry) {
     return slots;
 }
 
-shared::TextureRef textureRef(const TextureSlot& slot, const TextureArrays& arrays) {
+shared::TextureRef textureRef(const TextureSlot& slot, const std::vector<TextureArrays::Place>& places) {
     shared::TextureRef ref{};
-    ref.group = slot ? arrays.places[slot.texture].group : -1;
+    ref.group = slot ? places[slot.texture].group : -1;
     if (ref.group < 0) return ref;
-    ref.layer = arrays.places[slot.texture].layer;
+    ref.layer = places[slot.texture].layer;
     ref.texCoord = slot.texCoord;
     const glm::mat3 rows = glm::transpose(slot.transform);
     ref.u = rows[0];
@@ -82,85 +66,34 @@ std::uint32_t flagsOf(const Material& material) {
     return flags;
 }
 
-// The materials, and the tables of the specular layer for each distinct roughness of skin.
-void uploadMaterials(gpu::Device& device, gpu::Commands& commands, const Scene& scene, const Geometry& geometry,
-                     const TextureArrays& arrays, UploadedScene& uploaded) {
-    std::vector<bool> drawnAsSkin(scene.materials.size(), false);
-    for (const GeometryDraw& draw : geometry.draws) {
-        if (draw.skin) drawnAsSkin[draw.material] = true;
-    }
-    std::vector<shared::Material> materials;
-    std::vector<float> roughness;
-    std::vector<std::vector<float>> rows;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const Material& from = scene.materials[i];
-        shared::Material to{};
-        to.baseColor = from.baseColor;
-        to.emissive = from.emissive;
-        to.metallic = from.metallic;
-        to.roughness = from.roughness;
-        to.normalScale = from.normalScale;
-        to.occlusionStrength = from.occlusionStrength;
-        to.alphaCutoff = from.alphaCutoff;
-        to.flags = flagsOf(from);
-        to.baseColorTexture = textureRef(from.baseColorTexture, arrays);
-        to.metallicRoughnessTexture = textureRef(from.metallicRoughnessTexture, arrays);
-        to.normalTexture = textureRef(from.normalTexture, arrays);
-        to.occlusionTexture = textureRef(from.occlusionTexture, arrays);
-        to.emissiveTexture = textureRef(from.emissiveTexture, arrays);
-        if (drawnAsSkin[i]) {
-            const SkinMaterial& skin = *from.skin;
-            uploaded.translucent |= skin.translucency;
-            const auto m = static_cast<float>(std::max(skin.roughness, skin::kMinRoughness));
-            const std::size_t row = indexOf(roughness, m);
-            if (row == rows.size()) rows.push_back(skin::directionalAlbedoRow(m));
-            to.slope = m;
-            to.specularScale = static_cast<float>(skin.specular);
-            to.mix = static_cast<float>(skin.mix);
-            to.mmPerUnit = static_cast<float>(skin.mmPerUnit);
-            to.meanAlbedo = static_cast<float>(skin::meanAlbedo(rows[row], skin.specular));
-            to.albedoRow = static_cast<std::uint32_t>(row);
-            to.matteLayer = static_cast<std::uint32_t>(
-                indexOf(uploaded.skins, SkinSpecular{m, static_cast<float>(skin.specular)}));
-        }
-        materials.push_back(to);
-    }
-    uploaded.buffers.materials = uploadBuffer(device, commands, "materials", materials);
-    std::vector<float> table;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const std::vector<float> lobes = skin::specularLobeTable(roughness[i]);
-        table.insert(table.end(), rows[i].begin(), rows[i].end());
-        table.insert(table.end(), lobes.begin(), lobes.end());
-    }
-    uploaded.buffers.albedoTable = uploadBuffer(device, commands, "directional albedo", table);
+float slopeOf(const SkinMaterial& skin) {
+    return static_cast<float>(std::max(skin.roughness, skin::kMinRoughness));
 }
 
-void uploadCharts(gpu::Device& device, gpu::Commands& commands, const Scene& scene, const Atlas& atlas, int gaussians,
-                  UploadedScene& uploaded) {
-    std::vector<shared::GaussianTerm> terms;
-    for (const AtlasChart& chart : atlas.charts) {
-        const SkinMaterial& material = *scene.materials[chart.material].skin;
-        skin::Profile profile = skin::scaled(skin::sorted(material.profile), material.scale);
-        // A Gaussian that no channel uses is a blur that nothing reads.
-        std::erase_if(profile.gaussians, [](const skin::Gaussian& g) { return g.weight == glm::dvec3(0); });
-        if (gaussians > 0) profile = skin::reduced(profile, gaussians);
-        ChartRange range;
-        range.rect = chart.rect;
-        range.firstGaussian = static_cast<std::uint32_t>(terms.size());
-        range.profile = profile;
-        range.mmPerUnit = static_cast<float>(material.mmPerUnit);
-        range.coarsestMm = chart.coarsestMm;
-        range.receiverGroup = static_cast<std::uint32_t>(chart.character);
-        for (const skin::Gaussian& g : profile.gaussians) {
-            terms.push_back({glm::vec3(g.weight), static_cast<float>(g.variance)});
-        }
-        uploaded.gaussians = std::max(uploaded.gaussians, static_cast<int>(profile.gaussians.size()));
-        uploaded.charts.push_back(range);
-    }
-    uploaded.buffers.gaussians = uploadBuffer(device, commands, "gaussians", terms);
+SkinSpecular layerOf(const SkinMaterial& skin) {
+    return {slopeOf(skin), static_cast<float>(skin.specular)};
 }
 
-std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry, const TextureArrays& arrays) {
+shared::Material toShared(const Material& from, const std::vector<TextureArrays::Place>& places) {
+    shared::Material to{};
+    to.baseColor = from.baseColor;
+    to.emissive = from.emissive;
+    to.metallic = from.metallic;
+    to.roughness = from.roughness;
+    to.normalScale = from.normalScale;
+    to.occlusionStrength = from.occlusionStrength;
+    to.alphaCutoff = from.alphaCutoff;
+    to.flags = flagsOf(from);
+    to.baseColorTexture = textureRef(from.baseColorTexture, places);
+    to.metallicRoughnessTexture = textureRef(from.metallicRoughnessTexture, places);
+    to.normalTexture = textureRef(from.normalTexture, places);
+    to.occlusionTexture = textureRef(from.occlusionTexture, places);
+    to.emissiveTexture = textureRef(from.emissiveTexture, places);
+    return to;
+}
+
+std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry,
+                                  const std::vector<TextureArrays::Place>& places) {
     std::vector<DrawRange> ranges;
     for (const GeometryDraw& draw : geometry.draws) {
         const Material& material = scene.materials[draw.material];
@@ -175,8 +108,9 @@ std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry, 
         range.doubleSided = material.doubleSided;
         range.masked = material.alphaMode != AlphaMode::opaque;
         range.closed = range.skin && !range.doubleSided && !range.masked;
+        range.closed = range.skin && !range.doubleSided && !range.masked;
         if (material.baseColorTexture) {
-            range.alphaGroup = static_cast<std::uint32_t>(arrays.places[material.baseColorTexture.texture].group);
+            range.alphaGroup = static_cast<std::uint32_t>(places[material.baseColorTexture.texture].group);
         }
         // Textures and vertex colours only lower alpha.
         const float needed = material.alphaMode == AlphaMode::mask ? material.alphaCutoff : 1.0f / 255;
@@ -190,33 +124,176 @@ std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry, 
 
 }  // namespace
 
-UploadedScene uploadScene(gpu::Device& device, gpu::Commands& commands, const Scene& scene, const Geometry& geometry,
-                          const Atlas& atlas, int gaussians) {
-    UploadedScene uploaded;
-    SceneBuffers& buffers = uploaded.buffers;
-    TextureArrays arrays = uploadTextures(device, commands, scene, textureUses(scene, geometry));
-    uploadMaterials(device, commands, scene, geometry, arrays, uploaded);
-    uploadCharts(device, commands, scene, atlas, gaussians, uploaded);
-    buffers.textureGroups = static_cast<std::uint32_t>(arrays.images.size());
-    buffers.textureSlots = usedSlots(scene, geometry);
-    buffers.textureArrays = std::move(arrays.images);
-    buffers.materialTextures = std::move(arrays.sampled);
+std::vector<TextureUse> textureUses(const Scene& scene, const Geometry& geometry) {
+    std::vector<TextureUse> uses(scene.textures.size(), TextureUse::none);
+    for (const GeometryDraw& draw : geometry.draws) {
+        const Material& material = scene.materials[draw.material];
+        for (const auto slot : kSlots) {
+            if (draw.skin && slot == &Material::metallicRoughnessTexture) continue;
+            if (!(material.*slot)) continue;
+            TextureUse& use = uses[(material.*slot).texture];
+            const bool normals = slot == &Material::normalTexture && use != TextureUse::values;
+            use = normals ? TextureUse::normals : TextureUse::values;
+        }
+    }
+    return uses;
+}
+
+std::vector<int> skinMaterials(const Scene& scene, const Geometry& geometry) {
+    std::vector<int> materials;
+    std::vector<bool> seen(scene.materials.size(), false);
+    for (const GeometryDraw& draw : geometry.draws) {
+        if (draw.skin && !seen[draw.material]) materials.push_back(draw.material);
+        if (draw.skin) seen[draw.material] = true;
+    }
+    return materials;
+}
+
+std::vector<SkinSpecular> skinLayers(const Scene& scene, const Geometry& geometry) {
+    std::vector<SkinSpecular> layers;
+    for (const int material : skinMaterials(scene, geometry)) indexOf(layers, layerOf(*scene.materials[material].skin));
+    return layers;
+}
+
+skin::Profile profileOf(const Scene& scene, int material, int gaussians) {
+    const SkinMaterial& skin = *scene.materials[material].skin;
+    skin::Profile profile = skin::scaled(skin::sorted(skin.profile), skin.scale);
+    // A Gaussian that no channel uses is a blur that nothing reads.
+    std::erase_if(profile.gaussians, [](const skin::Gaussian& g) { return g.weight == glm::dvec3(0); });
+    return gaussians > 0 ? skin::reduced(profile, gaussians) : profile;
+}
+
+std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, int gaussians) {
+    std::vector<ChartRange> ranges;
+    std::size_t terms = 0;
+    for (const AtlasChart& chart : atlas.charts) {
+        ChartRange range;
+        range.rect = chart.rect;
+        range.firstGaussian = static_cast<std::uint32_t>(terms);
+        range.profile = profileOf(scene, chart.material, gaussians);
+        range.mmPerUnit = static_cast<float>(scene.materials[chart.material].skin->mmPerUnit);
+        range.coarsestMm = chart.coarsestMm;
+        range.receiverGroup = static_cast<std::uint32_t>(chart.character);
+        terms += range.profile.gaussians.size();
+        ranges.push_back(std::move(range));
+    }
+    return ranges;
+}
+
+bool reducesLevels(const RenderSettings& settings) { return settings.reducedLevels && settings.chain == Chain::exact; }
+
+void uploadMeshes(FrameContext& frame) {
+    const Geometry& geometry = frame.geometry;
+    SceneBuffers& buffers = frame.scene.buffers;
+    gpu::Device& device = *frame.device;
+    gpu::Commands& commands = *frame.commands;
     buffers.indices = uploadBuffer(device, commands, "indices", geometry.indices, true);
     buffers.positions = uploadBuffer(device, commands, "positions", geometry.positions);
     buffers.attributes = uploadBuffer(device, commands, "attributes", geometry.attributes);
     buffers.triangleDraws = uploadBuffer(device, commands, "triangle draws", geometry.triangleDraws);
-    buffers.draws = uploadBuffer(device, commands, "draws", geometry.drawInfos);
-    buffers.ranges = makeRanges(scene, geometry, arrays);
-    if (!atlas.charts.empty()) {
-        buffers.atlasVertices = uploadBuffer(device, commands, "atlas vertices", atlas.vertices);
-        std::vector<std::uint32_t> all(geometry.skinTriangleCount);
-        std::iota(all.begin(), all.end(), 0u);
-        buffers.skinTriangles = uploadBuffer(device, commands, "skin triangles", all);
-        buffers.skinTriangleCount = geometry.skinTriangleCount;
-        buffers.borderTriangles = uploadBuffer(device, commands, "border triangles", atlas.borderTriangles);
-        buffers.borderTriangleCount = static_cast<std::uint32_t>(atlas.borderTriangles.size());
+}
+
+void forgetMeshes(FrameContext& frame) {
+    SceneBuffers& buffers = frame.scene.buffers;
+    buffers.indices = {}, buffers.positions = {}, buffers.attributes = {}, buffers.triangleDraws = {};
+}
+
+void uploadSceneTextures(FrameContext& frame) {
+    const Scene& scene = *frame.input->scene;
+    SceneBuffers& buffers = frame.scene.buffers;
+    TextureArrays arrays = uploadTextures(*frame.device, *frame.commands, scene, textureUses(scene, frame.geometry));
+    buffers.textureGroups = static_cast<std::uint32_t>(arrays.images.size());
+    buffers.textureArrays = std::move(arrays.images);
+    buffers.materialTextures = std::move(arrays.sampled);
+    frame.scene.texturePlaces = std::move(arrays.places);
+}
+
+void forgetTextures(FrameContext& frame) {
+    frame.scene.buffers.materialTextures.clear();
+    frame.scene.buffers.textureArrays.clear();
+}
+
+// The materials, and the tables of the specular layer for each distinct roughness of skin.
+void uploadMaterials(FrameContext& frame) {
+    const Scene& scene = *frame.input->scene;
+    std::vector<shared::Material> materials;
+    for (const Material& material : scene.materials) materials.push_back(toShared(material, frame.scene.texturePlaces));
+    std::vector<SkinSpecular> layers;
+    std::vector<float> roughness;
+    std::vector<std::vector<float>> rows;
+    for (const int index : skinMaterials(scene, frame.geometry)) {
+        const SkinMaterial& skin = *scene.materials[index].skin;
+        shared::Material& to = materials[index];
+        const std::size_t row = indexOf(roughness, slopeOf(skin));
+        if (row == rows.size()) rows.push_back(skin::directionalAlbedoRow(slopeOf(skin)));
+        to.slope = slopeOf(skin);
+        to.specularScale = static_cast<float>(skin.specular);
+        to.mix = static_cast<float>(skin.mix);
+        to.mmPerUnit = static_cast<float>(skin.mmPerUnit);
+        to.meanAlbedo = static_cast<float>(skin::meanAlbedo(rows[row], skin.specular));
+        to.albedoRow = static_cast<std::uint32_t>(row);
+        to.matteLayer = static_cast<std::uint32_t>(indexOf(layers, layerOf(skin)));
     }
-    return uploaded;
+    std::vector<float> table;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::vector<float> lobes = skin::specularLobeTable(roughness[i]);
+        table.insert(table.end(), rows[i].begin(), rows[i].end());
+        table.insert(table.end(), lobes.begin(), lobes.end());
+    }
+    SceneBuffers& buffers = frame.scene.buffers;
+    buffers.materials = uploadBuffer(*frame.device, *frame.commands, "materials", materials);
+    buffers.albedoTable = uploadBuffer(*frame.device, *frame.commands, "directional albedo", table);
+    buffers.textureSlots = usedSlots(scene, frame.geometry);
+    buffers.ranges = makeRanges(scene, frame.geometry, frame.scene.texturePlaces);
+}
+
+void uploadLayout(FrameContext& frame) {
+    const AtlasOptions options{.size = frame.settings->irradianceSize, .mmPerTexelWanted = frame.detail.mmPerTexel};
+    frame.atlas = layOutAtlas(*frame.input->scene, frame.geometry, options);
+    SceneBuffers& buffers = frame.scene.buffers;
+    buffers.atlasVertices = uploadBuffer(*frame.device, *frame.commands, "atlas vertices", frame.atlas.vertices);
+    std::vector<std::uint32_t> all(frame.geometry.skinTriangleCount);
+    std::iota(all.begin(), all.end(), 0u);
+    buffers.skinTriangles = uploadBuffer(*frame.device, *frame.commands, "skin triangles", all);
+    buffers.skinTriangleCount = frame.geometry.skinTriangleCount;
+    buffers.borderTriangles =
+        uploadBuffer(*frame.device, *frame.commands, "border triangles", frame.atlas.borderTriangles);
+    buffers.borderTriangleCount = static_cast<std::uint32_t>(frame.atlas.borderTriangles.size());
+}
+
+void forgetLayout(FrameContext& frame) {
+    SceneBuffers& buffers = frame.scene.buffers;
+    buffers.atlasVertices = {}, buffers.skinTriangles = {}, buffers.borderTriangles = {};
+    buffers.skinTriangleCount = buffers.borderTriangleCount = 0;
+    frame.atlas = {};
+    for (shared::DrawInfo& draw : frame.geometry.drawInfos) draw.chart = shared::NO_CHART;
+}
+
+void uploadDraws(FrameContext& frame) {
+    frame.scene.draws = frame.geometry.drawInfos;
+    frame.scene.buffers.draws = uploadBuffer(*frame.device, *frame.commands, "draws", frame.scene.draws);
+}
+
+void uploadProfiles(FrameContext& frame) {
+    frame.scene.charts = chartRanges(*frame.input->scene, frame.atlas, frame.settings->gaussians);
+    frame.scene.gaussians = 0;
+    std::vector<shared::GaussianTerm> terms;
+    for (const ChartRange& chart : frame.scene.charts) {
+        for (const skin::Gaussian& g : chart.profile.gaussians) {
+            terms.push_back({glm::vec3(g.weight), static_cast<float>(g.variance)});
+        }
+        frame.scene.gaussians = std::max(frame.scene.gaussians, static_cast<int>(chart.profile.gaussians.size()));
+    }
+    frame.scene.buffers.gaussians = uploadBuffer(*frame.device, *frame.commands, "gaussians", terms);
+}
+
+void uploadOccluders(FrameContext& frame) {
+    // A third of a texel of the finest map that these meshes are drawn into.
+    double texel = std::numeric_limits<double>::infinity();
+    for (const Bounds& group : frame.groups) texel = std::min(texel, glm::length(group.size()) / kVisibilityMapSize);
+    frame.proxyError = 0.3 * texel;
+    const std::vector<std::uint32_t> indices = makeOcclusionProxies(frame.geometry, frame.proxyError);
+    frame.scene.buffers.proxyIndices = uploadBuffer(*frame.device, *frame.commands, "sky occluders", indices, true);
 }
 
 }  // namespace cutis

@@ -1,25 +1,54 @@
-// A flattened scene on the device.
+// The scene on the device, in parts that change apart: each is a row of the pass table.
 #pragma once
 
 #include <vector>
 
 #include "renderer/frame/atlas.h"
 #include "renderer/frame/geometry.h"
+#include "renderer/frame/textures.h"
 #include "renderer/passes/environment.h"
 #include "renderer/passes/resources.h"
 
 namespace cutis {
 
+struct FrameContext;
+struct RenderSettings;
+
 struct UploadedScene {
     SceneBuffers buffers;
-    std::vector<ChartRange> charts;         // one an atlas chart
-    std::vector<SkinSpecular> skins;        // distinct specular layers, in the order of the matte maps
-    bool translucent = false;               // some skin lets light through
-    int gaussians = 0;                      // most of any chart
+    std::vector<TextureArrays::Place> texturePlaces;  // per Scene::textures
+    std::vector<shared::DrawInfo> draws;              // as uploaded
+    std::vector<ChartRange> charts;                   // one an atlas chart
+    int gaussians = 0;                                // most of any chart
 };
 
-// `gaussians` > 0: profiles are reduced to that many Gaussians.
-UploadedScene uploadScene(gpu::Device& device, gpu::Commands& commands, const Scene& scene, const Geometry& geometry,
-                          const Atlas& atlas, int gaussians);
+// Textures that some drawn material samples. Skin has its own roughness, so its metallic-roughness map never is.
+std::vector<TextureUse> textureUses(const Scene& scene, const Geometry& geometry);
+// Materials that are drawn as skin, each once, in the order of the draws.
+std::vector<int> skinMaterials(const Scene& scene, const Geometry& geometry);
+// Their distinct specular layers, in the order of the environment's matte maps.
+std::vector<SkinSpecular> skinLayers(const Scene& scene, const Geometry& geometry);
+// The diffusion profile of a skin material as it is used: scaled, without Gaussians of no weight, and, where `gaussians`
+// > 0, reduced to that many.
+skin::Profile profileOf(const Scene& scene, int material, int gaussians);
+
+// The charts of the atlas as passes use them.
+std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, int gaussians);
+// Whether wide Gaussians are blurred at a lower resolution.
+bool reducesLevels(const RenderSettings& settings);
+
+// Rows of the pass table.
+void uploadMeshes(FrameContext& frame);
+void uploadSceneTextures(FrameContext& frame);
+void uploadMaterials(FrameContext& frame);
+void uploadLayout(FrameContext& frame);
+void uploadDraws(FrameContext& frame);
+void uploadProfiles(FrameContext& frame);
+void uploadOccluders(FrameContext& frame);
+
+// They free what these rows wrote.
+void forgetMeshes(FrameContext& frame);
+void forgetTextures(FrameContext& frame);
+void forgetLayout(FrameContext& frame);
 
 }  // namespace cutis

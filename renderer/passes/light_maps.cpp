@@ -84,7 +84,7 @@ void drawBatch(gpu::Device& device, gpu::Commands& commands, const SceneBuffers&
     if (targets.entry || batch.masked) shaders.push_back(fragment);
     commands.draw(device.program(shaders, state, constants), bindings,
                   MapPush{view, 1.0f / static_cast<float>(std::max(targets.atlasSize, 1)), batch.material},
-                  batch.calls, &scene.indices);
+                  batch.calls, targets.proxies ? &scene.proxyIndices : &scene.indices);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kCoarseLevels = shared::COARSEST_LEVEL;
 // A run of triangles drawn with one call.
 struct DrawRange {
     std::uint32_t firstIndex = 0, indexCount = 0;
-    std::uint32_t firstProxyIndex = 0, proxyIndexCount = 0;  // a coarser form, for the sky's shadows
+    std::uint32_t firstProxyIndex = 0, proxyIndexCount = 0;  // a coarser form in proxyIndices, for the sky's shadows
     std::uint32_t material = 0;
     bool skin = false;     // takes light in
     bool masked = false;   // its material's alpha cuts it out or lets light through
@@ -34,7 +34,7 @@ struct DrawRange {
 
 // The scene on the device, uploaded once (frame/upload.cpp).
 struct SceneBuffers {
-    gpu::Buffer indices, positions, attributes, atlasVertices, triangleDraws, draws, materials;
+    gpu::Buffer indices, proxyIndices, positions, attributes, atlasVertices, triangleDraws, draws, materials;
     gpu::Buffer albedoTable;                     // rows of ρ_dt, one a distinct skin roughness
     gpu::Buffer gaussians;                       // of all charts
     gpu::Buffer skinTriangles, borderTriangles;  // triangle numbers
@@ -83,6 +83,7 @@ struct LightMaps {
     std::uint32_t groupCount = 0;  // of receivers: views of a sample
     gpu::Buffer samples, views;
     std::vector<shared::LightView> viewList;  // as uploaded
+    int drawn = 0;                            // of them, this time
     std::uint32_t sampleCount = 0;
     std::uint32_t lightCount = 0;  // that the samples belong to
     gpu::Image depth;

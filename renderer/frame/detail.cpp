@@ -1,0 +1,65 @@
+#include "renderer/frame/detail.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "renderer/frame/camera.h"
+#include "renderer/frame/frame.h"
+#include "renderer/passes/light_views.h"
+
+namespace cutis {
+namespace {
+
+// Light maps are as fine as the picture asks (a texel is one to two pixels), whatever their number: a light casts the same
+// shadow alone and among many. Only beyond this much memory do they become coarser.
+constexpr std::uint64_t kLightMapBytes = std::uint64_t(2) << 30;
+constexpr int kLargestLightMap = 4096, kFinestUsefulLightMap = 1024, kSmallestLightMap = 128;
+
+// Texels a little finer than the pixels where the character stands; never finer than the narrowest blur of skin.
+// A character that the picture does not show needs hardly any.
+double wantedMmPerTexel(double metresPerPixel, bool inView) {
+    constexpr double kFinest = 0.08, kOutOfView = 10;
+    if (!inView) return kOutOfView;
+    return std::max(kFinest, 0.9 * metresPerPixel * 1000);
+}
+
+bool near(double kept, double wanted) {
+    return kept > 0 && kept <= wanted * kDetailSlack && wanted <= kept * kDetailSlack;
+}
+
+}  // namespace
+
+void chooseDetail(FrameContext& frame) {
+    const RenderSettings& settings = *frame.settings;
+    const ViewCameraMetrics metrics(frame.input->camera, {settings.width, settings.height});
+    Detail wanted;
+    for (const Character& character : frame.input->scene->characters) {
+        const glm::dvec3 centre = character.bounds.centre();
+        const glm::vec3 low(character.bounds.min - frame.geometry.origin), high(character.bounds.max - frame.geometry.origin);
+        const bool inView = frame.anyView || reaches(frame.camera.worldToClip, low, high);
+        const double metres = (frame.anyView ? metrics.metresPerPixelAtDistance(centre) : metrics.metresPerPixel(centre)) /
+                              settings.detail;
+        wanted.mmPerTexel.push_back(wantedMmPerTexel(metres, inView));
+        if (inView) wanted.pixelsAcross = std::max(wanted.pixelsAcross, glm::length(character.bounds.size()) / metres);
+    }
+    Detail& kept = frame.detail;
+    const bool layoutStands = frame.anyView && kept.mmPerTexel.size() == wanted.mmPerTexel.size() &&
+                              std::equal(kept.mmPerTexel.begin(), kept.mmPerTexel.end(), wanted.mmPerTexel.begin(), near);
+    if (!layoutStands) kept.mmPerTexel = wanted.mmPerTexel;
+    if (!frame.anyView || !near(kept.pixelsAcross, wanted.pixelsAcross)) kept.pixelsAcross = wanted.pixelsAcross;
+}
+
+void chooseLightMapSize(FrameContext& frame, std::size_t maps) {
+    if (frame.settings->lightMapSize > 0) {
+        frame.detail.lightMapSize = frame.settings->lightMapSize;
+        return;
+    }
+    const std::uint64_t texelBytes = frame.needs[Need::translucency] ? 8 : 4;
+    const auto wanted = static_cast<unsigned>(std::clamp<double>(frame.detail.pixelsAcross, 1, kLargestLightMap));
+    int size = std::clamp(static_cast<int>(std::bit_ceil(wanted)) / 2, kFinestUsefulLightMap, kLargestLightMap);
+    while (size > kSmallestLightMap && maps * texelBytes * size * size > kLightMapBytes) size /= 2;
+    frame.detail.lightMapSize = size;
+}
+
+}  // namespace cutis

@@ -1,0 +1,69 @@
+#include "renderer/frame/light_map_layers.h"
+
+#include <algorithm>
+#include <map>
+
+#include "renderer/core/hash.h"
+
+namespace cutis {
+namespace {
+
+// Of what is drawn: the layer is only where.
+std::uint64_t keyOf(const shared::LightView& view) {
+    return ContentHash().add(view.worldToClip, view.depthToDistance, view.texelSize).value();
+}
+
+}  // namespace
+
+LightMapLayers::Assignment LightMapLayers::assign(std::vector<shared::LightView>& views) {
+    constexpr std::uint32_t kNone = 0xffffffffu;
+    Assignment result;
+    std::map<std::uint64_t, std::uint32_t> known;
+    for (std::uint32_t layer = 0; layer < held_.size(); ++layer) {
+        if (held_[layer]) known.emplace(keyOf(*held_[layer]), layer);
+    }
+    std::vector<bool> used(held_.size(), false);
+    std::size_t missing = 0;
+    for (shared::LightView& view : views) {
+        const auto found = known.find(keyOf(view));
+        view.layer = found == known.end() ? kNone : found->second;
+        if (view.layer == kNone) ++missing;
+        else used[view.layer] = true;
+    }
+    const auto free = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+    // Layers that lights left are kept for those that come, up to as many as are in use.
+    result.newImage = missing > free || held_.size() > 2 * views.size();
+    if (result.newImage) {
+        std::vector<std::optional<shared::LightView>> moved;
+        std::vector<std::uint32_t> place(held_.size(), kNone);
+        for (std::uint32_t layer = 0; layer < held_.size(); ++layer) {
+            if (!used[layer]) continue;
+            place[layer] = static_cast<std::uint32_t>(moved.size());
+            result.moves.push_back({layer, place[layer]});
+            moved.push_back(held_[layer]);
+        }
+        for (shared::LightView& view : views) {
+            if (view.layer != kNone) view.layer = place[view.layer];
+        }
+        used.assign(moved.size(), true);
+        moved.resize(moved.size() + missing);
+        used.resize(moved.size(), false);
+        held_ = std::move(moved);
+    }
+    // Layers that hold nothing first: a light that was turned off may come back.
+    std::vector<std::uint32_t> empty, stale;
+    for (std::uint32_t layer = 0; layer < held_.size(); ++layer) {
+        if (!used[layer]) (held_[layer] ? stale : empty).push_back(layer);
+    }
+    empty.insert(empty.end(), stale.begin(), stale.end());
+    auto next = empty.begin();
+    for (std::uint32_t v = 0; v < views.size(); ++v) {
+        if (views[v].layer != kNone) continue;
+        views[v].layer = *next++;
+        held_[views[v].layer] = views[v];
+        result.draw.push_back(v);
+    }
+    return result;
+}
+
+}  // namespace cutis

@@ -1,0 +1,119 @@
+#include "renderer/frame/lighting.h"
+
+#include <cmath>
+
+#include "renderer/frame/frame.h"
+#include "renderer/gpu/device.h"
+#include "renderer/scene/light_samples.h"
+
+namespace cutis {
+namespace {
+
+void splitOnce(Lighting& lighting, const RenderInput& input, int samples) {
+    const bool known = lighting.splitOf == input.environment && lighting.splitSamples == samples &&
+                       lighting.splitRevision == input.environmentRevision;
+    if (known) return;
+    lighting.splitOf = nullptr;
+    lighting.split = splitEnvironment(*input.environment, samples, 0, 1);
+    lighting.splitOf = input.environment;
+    lighting.splitSamples = samples;
+    lighting.splitRevision = input.environmentRevision;
+}
+
+void addToRuns(const shared::LightSampleData& sample, std::vector<LightRun>& runs, std::uint32_t index) {
+    const bool sameLight = !runs.empty() && runs.back().light == sample.light;
+    const bool shadow = (sample.flags & shared::LIGHT_SHADOW) != 0;
+    if (!sameLight || runs.back().sampleCount == kLongestLightRun || runs.back().shadow != shadow) {
+        runs.push_back({.firstSample = index, .firstView = sample.firstView, .light = sample.light, .shadow = shadow,
+                        .startsLight = !sameLight});
+    }
+    ++runs.back().sampleCount;
+}
+
+}  // namespace
+
+void readLighting(FrameContext& frame) {
+    const RenderInput& input = *frame.input;
+    const EnvironmentSettings& settings = input.rig.environment;
+    Lighting& lighting = frame.lighting;
+    lighting.samples = sampleLights(input.rig);
+    lighting.environment = nullptr;
+    if (input.environment && settings.enabled && settings.intensity > 0) {
+        lighting.environment = input.environment;
+        if (settings.shadowSamples > 0) {
+            splitOnce(lighting, input, settings.shadowSamples);
+            lighting.environment = &lighting.split.residual;
+            for (LightSample sample : lighting.split.samples) {
+                sample.direction = rotateAboutY(sample.direction, settings.rotation);
+                sample.intensity *= settings.intensity;
+                lighting.samples.push_back(sample);
+            }
+        }
+    }
+    if (frame.settings->prune) return;
+    static const Environment kBlack{"black", 2, 1, std::vector<glm::vec3>(2, glm::vec3(0))};
+    if (!lighting.environment) lighting.environment = &kBlack;
+    if (lighting.samples.empty()) lighting.samples.push_back({.light = 0, .directional = true});
+}
+
+void uploadLightSamples(FrameContext& frame) {
+    LightMaps& lights = frame.lights;
+    std::vector<shared::LightSampleData> samples;
+    std::uint32_t shadowed = 0;
+    int lastLight = 0;
+    lights.runs.clear();
+    lights.lightCount = 0;
+    for (const LightSample& from : frame.lighting.samples) {
+        shared::LightSampleData to{};
+        to.position = glm::vec3(from.position - frame.geometry.origin);
+        to.direction = glm::vec3(from.direction);
+        to.intensity = glm::vec3(from.intensity);
+        to.cosInner = static_cast<float>(from.cosInner);
+        to.cosOuter = static_cast<float>(from.cosOuter);
+        to.range = static_cast<float>(from.range);
+        to.radius = static_cast<float>(from.radius);
+        if (from.directional) to.flags |= shared::LIGHT_DIRECTIONAL;
+        if (from.cosineEmission) to.flags |= shared::LIGHT_COSINE;
+        if (from.shadow) {
+            to.flags |= shared::LIGHT_SHADOW;
+            to.firstView = shadowed++ * static_cast<std::uint32_t>(frame.groups.size());
+        }
+        if (samples.empty() || from.light != lastLight) to.light = lights.lightCount++;
+        else to.light = lights.lightCount - 1;
+        lastLight = from.light;
+        addToRuns(to, lights.runs, static_cast<std::uint32_t>(samples.size()));
+        samples.push_back(to);
+    }
+    lights.groupCount = static_cast<std::uint32_t>(frame.groups.size());
+    lights.sampleCount = static_cast<std::uint32_t>(samples.size());
+    lights.samples =
+        gpu::Buffer(*frame.device, {.name = "light samples", .bytes = samples.size() * sizeof(samples[0])});
+    if (!samples.empty()) frame.commands->upload(lights.samples, samples);
+}
+
+void makeEnvironmentMaps(FrameContext& frame) {
+    frame.environmentMaps = prefilterEnvironment(*frame.device, *frame.lighting.environment,
+                                                 skinLayers(*frame.input->scene, frame.geometry));
+}
+
+void makeSkyClusters(FrameContext& frame) { frame.clusters = clusterEnvironment(*frame.lighting.environment); }
+
+void uploadEnvironmentSettings(FrameContext& frame) {
+    const EnvironmentSettings& settings = frame.input->rig.environment;
+    const double angle = settings.rotation * 3.14159265358979323846 / 180;
+    std::vector<shared::EnvironmentSource> sources = frame.environmentMaps.mediumSources;
+    const std::vector<shared::EnvironmentSource>& rough = frame.environmentMaps.roughSources;
+    const auto mediumCount = static_cast<std::uint32_t>(sources.size());
+    sources.insert(sources.end(), rough.begin(), rough.end());
+    const std::vector<shared::EnvironmentSettingsData> data{{static_cast<float>(std::cos(angle)),
+                                                             static_cast<float>(std::sin(angle)),
+                                                             static_cast<float>(settings.intensity),
+                                                             mediumCount, static_cast<std::uint32_t>(rough.size())}};
+    frame.environmentSettings =
+        gpu::Buffer(*frame.device, {.name = "environment settings",
+                                    .bytes = sizeof(data[0]) + sources.size() * sizeof(sources[0])});
+    frame.commands->upload(frame.environmentSettings, data);
+    if (!sources.empty()) frame.commands->upload(frame.environmentSettings, sources, sizeof(data[0]));
+}
+
+}  // namespace cutis

@@ -1,0 +1,35 @@
+// The light of a picture: samples of the rig's lights, and the environment.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/scene/environment_samples.h"
+#include "renderer/scene/light.h"
+
+namespace cutis {
+
+struct FrameContext;
+
+struct Lighting {
+    std::vector<LightSample> samples;          // of the rig, then those drawn from the environment
+    const Environment* environment = nullptr;  // what is left of it; nullptr: none
+
+    // The environment as it was split last, neither turned nor dimmed.
+    EnvironmentSplit split;
+    const Environment* splitOf = nullptr;
+    std::uint64_t splitRevision = 0;
+    int splitSamples = 0;
+};
+
+// Fills frame.lighting from the rig and the environment of the input. Without pruning, what is missing is there and
+// black, so that every pass runs and nothing changes.
+void readLighting(FrameContext& frame);
+
+// Rows of the pass table: what shaders read of it.
+void uploadLightSamples(FrameContext& frame);
+void makeEnvironmentMaps(FrameContext& frame);
+void makeSkyClusters(FrameContext& frame);
+void uploadEnvironmentSettings(FrameContext& frame);
+
+}  // namespace cutis

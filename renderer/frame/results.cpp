@@ -1,0 +1,127 @@
+#include "renderer/frame/results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "renderer/gpu/device.h"
+
+namespace cutis {
+namespace {
+
+// Channels that an AOV has of the four that the shader writes.
+int aovChannels(int aov) {
+    constexpr int kChannels[kAovCount] = {3, 3, 3, 1, 3, 3, 3, 1, 1};
+    return kChannels[aov];
+}
+
+Picture toPicture(std::span<const float> rgba, int width, int height, int channels) {
+    Picture picture{width, height, channels, {}};
+    picture.values.resize(std::size_t(width) * height * channels);
+    for (std::size_t i = 0; i < std::size_t(width) * height; ++i) {
+        std::copy_n(&rgba[i * 4], channels, &picture.values[i * channels]);
+    }
+    return picture;
+}
+
+std::uint64_t countNonfinite(std::span<const float> values) {
+    return static_cast<std::uint64_t>(
+        std::count_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); }));
+}
+
+// Positions on the device are relative to the scene's origin.
+void moveToWorld(RenderResult& result, const glm::dvec3& origin) {
+    const auto found = result.aovs.find("position");
+    if (found == result.aovs.end()) return;
+    Picture& position = found->second;
+    for (std::size_t i = 0; i < position.values.size() / 3; ++i) {
+        if (result.picture.values[i * 4 + 3] <= 0) continue;
+        for (int c = 0; c < 3; ++c) {
+            position.values[i * 3 + c] = static_cast<float>(position.values[i * 3 + c] + origin[c]);
+        }
+    }
+}
+
+const char* nameOf(Input input) {
+    constexpr const char* kNames[kInputCount] = {
+        "geometry",      "textures",    "materials",          "skin's specular layer", "albedo mix",           "profiles",
+        "levels", "chain", "atlas size",  "light map size",     "places of lights",      "intensities of lights", "environment",
+        "rotation of the environment", "intensity of the environment", "camera", "picture size", "data channels"};
+    return kNames[static_cast<int>(input)];
+}
+
+const char* nameOf(Resource resource) {
+    constexpr const char* kNames[] = {"filtered environment", "environment settings", "clusters of the environment", "meshes", "occluders of the sky",
+                                      "textures", "materials", "atlas layout", "draws", "profiles", "opposite sides",
+                                      "lights", "view buffers", "picture's memory", "surface", "seen triangles",
+                                      "light maps", "thickness", "needed texels", "visibility of the sky", "irradiance",
+                                      "blurred levels", "exitance", "picture"};
+    return kNames[static_cast<int>(resource)];
+}
+
+}  // namespace
+
+std::string describeReads(const PassRow& row) {
+    std::string list;
+    const auto add = [&](const char* name) { list += (list.empty() ? "" : ", ") + std::string(name); };
+    for (const Input input : row.inputs) add(nameOf(input));
+    for (const Resource resource : row.reads) add(nameOf(resource));
+    return list;
+}
+
+Readbacks recordReadbacks(const FrameContext& frame, bool lit) {
+    Readbacks readbacks;
+    readbacks.picture = frame.commands->readback(frame.target.picture);
+    if (frame.target.aovs) readbacks.aovs = frame.commands->readback(frame.target.aovs);
+    readbacks.skin = lit && frame.skin.exitance;
+    if (readbacks.skin) {
+        readbacks.exitance = frame.commands->readback(frame.skin.exitance);
+        readbacks.tileCounts = frame.commands->readback(frame.tiles.counts);
+    }
+    return readbacks;
+}
+
+void takePictures(const FrameContext& frame, const Readbacks& readbacks, SkinFigures& skin, RenderResult& result) {
+    const int width = frame.settings->width, height = frame.settings->height;
+    const std::vector<float> picture = readbacks.picture.as<float>();
+    result.stats.nonfinite += countNonfinite(picture);
+    result.picture = Picture{width, height, 4, picture};
+    if (frame.target.aovs) {
+        const std::vector<float> all = readbacks.aovs.as<float>();
+        const std::size_t layerSize = std::size_t(width) * height * 4;
+        for (int i = 0; i < kAovCount; ++i) {
+            if (frame.target.aovLayer[i] < 0) continue;
+            const std::span layer = std::span(all).subspan(frame.target.aovLayer[i] * layerSize, layerSize);
+            result.stats.nonfinite += countNonfinite(layer);
+            result.aovs[kAovNames[i]] = toPicture(layer, width, height, aovChannels(i));
+        }
+    }
+    if (readbacks.skin) {
+        const CoveredTexels texels = coveredTexels(readbacks.tileCounts);
+        skin = {texels.all, texels.lit, countNonfinite(readbacks.exitance.as<float>())};
+    } else if (!frame.skin.exitance) {
+        skin = {};
+    }
+    result.stats.nonfinite += skin.nonfinite;
+    result.stats.atlasTexelsCovered = skin.texelsCovered;
+    result.stats.atlasTexelsLit = skin.texelsLit;
+    moveToWorld(result, frame.geometry.origin);
+}
+
+void fillStats(const FrameContext& frame, const Plan& plan, RenderStats& stats) {
+    stats.device = frame.device->info().name;
+    stats.leftOut = plan.leftOut;
+    if (!frame.needs[Need::translucency]) {
+        stats.leftOut.push_back({"translucency", frame.needs.why(Need::translucency)});
+    }
+    stats.atlasWidth = stats.atlasHeight = frame.atlas.size;
+    stats.atlasMmPerTexel = frame.atlas.mmPerTexel;
+    for (const Light& light : frame.input->rig.lights) stats.lights += light.enabled;
+    stats.lightSamples = static_cast<int>(frame.lighting.samples.size());
+    stats.characters = static_cast<int>(frame.input->scene->characters.size());
+    stats.gaussians = frame.atlas.charts.empty() ? 0 : frame.scene.gaussians;
+    stats.lightMaps = static_cast<int>(frame.lights.viewList.size());
+    stats.bytesGpu = frame.device->peakBytes();
+}
+
+}  // namespace cutis

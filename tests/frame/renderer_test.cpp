@@ -1,0 +1,242 @@
+// A renderer that keeps what it can, against one that starts afresh for each picture.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "renderer/core/error.h"
+#include "renderer/frame/renderer.h"
+#include "renderer/gpu/device.h"
+#include "renderer/scene/characters.h"
+#include "tests/support/pictures.h"
+#include "tests/support/render.h"
+#include "tests/support/surfaces.h"
+
+namespace cutis::test {
+namespace {
+
+Environment skyOf(double low, double high) {
+    const Picture picture = makeEnvironment(
+        32, 16, [&](const glm::dvec3& w) { return glm::dvec3(w.x > 0.5 && w.y > 0 ? high : low); });
+    Environment environment{"sky", 32, 16, {}};
+    for (int y = 0; y < 16; ++y) {
+        for (int x = 0; x < 32; ++x) environment.radiance.push_back(glm::vec3(rgbAt(picture, x, y)));
+    }
+    return environment;
+}
+
+// Few triangles: what is tested is which passes run.
+Primitive smallBox(const glm::dvec3& min, const glm::dvec3& max) {
+    ChartedMesh mesh(0.01);
+    const glm::dvec3 x(max.x - min.x, 0, 0), y(0, max.y - min.y, 0), z(0, 0, max.z - min.z);
+    mesh.addQuad(min, y, x, 2), mesh.addQuad(min + z, x, y, 2);
+    mesh.addQuad(min, z, y, 2), mesh.addQuad(min + x, y, z, 2);
+    mesh.addQuad(min, x, z, 2), mesh.addQuad(min + y, z, x, 2);
+    return mesh.finish();
+}
+
+class KeepingRenderer : public ::testing::Test {
+  protected:
+    static gpu::Device& device() {
+        setenv("CUTIS_CACHE_DIR", CUTIS_TEST_CACHE_DIR, 1);
+        static gpu::Device shared({.select = "cpu", .validation = true});
+        return shared;
+    }
+
+    // A head with a thin ear, and another character, before a wall.
+    KeepingRenderer() : sky_(skyOf(0.3, 4)) {
+        SceneBuilder builder;
+        SkinMaterial skin;
+        skin_ = builder.addSkin(skin, {0.8, 0.6, 0.5});
+        builder.addObject("head", smallBox({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}), skin_);
+        builder.addObject("ear", smallBox({0.11, -0.02, 0}, {0.15, 0.04, 0.004}), skin_);
+        builder.addObject("other", smallBox({-0.3, -0.05, -0.05}, {-0.2, 0.05, 0.05}), skin_);
+        builder.addObject("wall", smallBox({-0.5, -0.3, -0.32}, {0.5, 0.3, -0.3}), builder.addMatte());
+        builder.setOrthographicCamera({0.02, 0.05, 0.6}, {-0.05, 0, 0}, 0.5);
+        scene_ = builder.scene();
+        prepareScene(scene_);
+        input_.scene = &scene_;
+        input_.camera = scene_.cameras[0];
+        input_.rig.lights = {pointLight("key", {0.4, 0.3, 0.5}, 0.6), directionalLight("back", {-0.4, -0.2, 1}, 1.5),
+                             rectLight("box", {-0.5, 0.4, 0.3}, {0.7, -0.5, -0.5}, 6, 0.2, 0.2, 4)};
+        settings_.width = 80;
+        settings_.height = 60;
+        settings_.irradianceSize = 160;
+        settings_.lightMapSize = 128;
+        messages_ = gpu::validationMessages();
+    }
+    ~KeepingRenderer() override { EXPECT_EQ(gpu::validationMessages(), messages_) << "validation messages, see above"; }
+
+    // Renders with what was kept and afresh, holds one against the other, and returns the passes that ran.
+    std::string render(int expectedMaps = -1) {
+        const RenderResult kept = renderer_.render(input_, settings_);
+        const RenderResult fresh = renderPicture(device(), input_, settings_);
+        double worst = 0;
+        EXPECT_EQ(kept.picture.values.size(), fresh.picture.values.size());
+        for (std::size_t i = 0; i < fresh.picture.values.size(); ++i) {
+            worst = std::max<double>(worst, std::abs(kept.picture.values[i] - fresh.picture.values[i]));
+        }
+        // The same arithmetic texel by texel; a sum's order may differ by a rounding. Radiances reach 1.
+        EXPECT_LE(worst, 2e-6);
+        EXPECT_EQ(kept.aovs.size(), fresh.aovs.size());
+        EXPECT_TRUE(expectedMaps < 0 || kept.stats.lightMapsDrawn == expectedMaps) << kept.stats.lightMapsDrawn;
+        std::string ran;
+        for (const PassStats& pass : kept.stats.passes) {
+            if (pass.runs > 0) ran += (ran.empty() ? "" : " ") + pass.name;
+            EXPECT_EQ(pass.reason.rfind("unchanged: ", 0) == 0, pass.runs == 0) << pass.name;
+        }
+        return ran;
+    }
+
+    static constexpr const char* kAll =
+        "surface light_maps thickness irradiance diffusion exitance composite";
+    static constexpr const char* kLight = "irradiance diffusion exitance composite";
+    static constexpr const char* kLightPlaces = "light_maps thickness irradiance diffusion exitance composite";
+    static constexpr int kGroups = 4;  // head, ear, other and the wall: maps of a light sample
+
+    Scene scene_;
+    Environment sky_;
+    int skin_ = 0;
+    RenderInput input_;
+    RenderSettings settings_;
+    Renderer renderer_{device()};
+    std::uint64_t messages_ = 0;
+};
+
+TEST_F(KeepingRenderer, CameraAndPicture) {
+    EXPECT_EQ(render(6 * kGroups), kAll);
+    EXPECT_EQ(render(0), "");
+    SceneBuilder other;
+    other.setOrthographicCamera({0.4, 0.1, 0.5}, {-0.05, 0, 0}, 0.6);
+    input_.camera = other.scene().cameras[0];
+    EXPECT_EQ(render(0), "composite");
+    settings_.width = 100;
+    EXPECT_EQ(render(0), "composite");
+    settings_.aovs = {"irradiance", "normal"};
+    EXPECT_EQ(render(0), "composite");
+}
+
+TEST_F(KeepingRenderer, Lights) {
+    render();
+    input_.rig.lights[0].position.x += 0.05;
+    EXPECT_EQ(render(kGroups), kLightPlaces) << "moved";
+    input_.rig.lights[2].intensity *= 2;
+    input_.rig.lights[1].color = {1, 0.5, 0.2};
+    EXPECT_EQ(render(0), kLight) << "brighter, and of another colour";
+    input_.rig.lights[1].enabled = false;
+    EXPECT_EQ(render(0), kLightPlaces) << "muted";
+    input_.rig.lights[1].enabled = true;
+    EXPECT_EQ(render(0), kLightPlaces) << "back";
+    std::swap(input_.rig.lights[0], input_.rig.lights[2]);
+    EXPECT_EQ(render(0), kLightPlaces) << "reordered";
+    input_.rig.lights.push_back(pointLight("kicker", {-0.3, -0.2, 0.5}, 0.3));
+    EXPECT_EQ(render(kGroups), kLightPlaces) << "added";
+    input_.rig.lights.erase(input_.rig.lights.begin());
+    EXPECT_EQ(render(0), kLightPlaces) << "deleted";
+    input_.rig.lights[0].shadow = false;
+    EXPECT_EQ(render(0), kLightPlaces) << "without shadow";
+    input_.rig.lights.clear();
+    EXPECT_EQ(render(0), "composite") << "none";
+}
+
+TEST_F(KeepingRenderer, Environment) {
+    input_.environment = &sky_;
+    EXPECT_EQ(render(), "surface light_maps thickness environment_visibility irradiance diffusion exitance composite");
+    input_.rig.environment.intensity = 2;
+    EXPECT_EQ(render(0), kLight);
+    input_.rig.environment.rotation = 70;
+    EXPECT_EQ(render(0), "environment_visibility irradiance diffusion exitance composite");
+    input_.rig.environment.enabled = false;
+    EXPECT_EQ(render(0), kLight);
+    input_.rig.environment.enabled = true;
+    EXPECT_EQ(render(0), "environment_visibility irradiance diffusion exitance composite");
+    sky_ = skyOf(1, 2);
+    ++input_.environmentRevision;
+    EXPECT_EQ(render(0), "environment_visibility irradiance diffusion exitance composite");
+    input_.rig.environment.shadowSamples = 2;
+    render();
+    input_.rig.environment.intensity = 1;
+    EXPECT_EQ(render(0), kLight) << "its samples stay where they are";
+}
+
+TEST_F(KeepingRenderer, Materials) {
+    render();
+    SkinMaterial& skin = *scene_.materials[skin_].skin;
+    skin.roughness = 0.5;
+    EXPECT_EQ(render(0), kLight);
+    skin.mix = 1;
+    EXPECT_EQ(render(0), kLight);
+    skin.scale = 0.5;
+    EXPECT_EQ(render(0), "thickness irradiance diffusion exitance composite");
+    skin.profile.gaussians.resize(3);
+    EXPECT_EQ(render(0), "surface thickness irradiance diffusion exitance composite");
+    skin.translucency = false;
+    // Light maps lose their entry points.
+    EXPECT_EQ(render(6 * kGroups), "light_maps irradiance diffusion exitance composite");
+}
+
+TEST_F(KeepingRenderer, Geometry) {
+    render();
+    scene_.nodes[2].local[3] = {0, 0.05, 0, 1};
+    prepareScene(scene_);
+    ++input_.sceneRevision;
+    EXPECT_EQ(render(), kAll);
+    scene_.materials[skin_].skin.reset();
+    prepareScene(scene_);
+    EXPECT_EQ(render(), "light_maps composite");
+}
+
+// Texels follow the view only when it asks for much finer or coarser ones.
+TEST_F(KeepingRenderer, DetailStaysWhileTheCameraMoves) {
+    settings_.irradianceSize = 0;
+    const int first = renderer_.render(input_, settings_).stats.atlasWidth;
+    input_.camera.xmag *= 1.4;
+    input_.camera.ymag *= 1.4;
+    RenderResult result = renderer_.render(input_, settings_);
+    EXPECT_EQ(result.stats.atlasWidth, first);
+    input_.camera.xmag *= 1.4;
+    input_.camera.ymag *= 1.4;
+    result = renderer_.render(input_, settings_);
+    EXPECT_LT(result.stats.atlasWidth, first);
+    settings_.detail = 2;
+    EXPECT_GT(renderer_.render(input_, settings_).stats.atlasWidth, result.stats.atlasWidth);
+}
+
+TEST_F(KeepingRenderer, MemoryDoesNotGrow) {
+    const auto turn = [&](int i) {
+        input_.camera.xmag = input_.camera.ymag = 0.25 + 0.001 * (i % 2);
+        input_.rig.lights[0].position.x = 0.4 + 0.01 * (i % 3);
+        input_.rig.lights[1].enabled = i % 2 == 0;
+        renderer_.render(input_, settings_);
+    };
+    for (int i = 0; i < 12; ++i) turn(i);
+    const std::uint64_t before = device().bytesAllocated();
+    for (int i = 0; i < 12; ++i) turn(i);
+    EXPECT_EQ(device().bytesAllocated(), before);
+    renderer_.forget();
+    EXPECT_LT(device().bytesAllocated(), before);
+}
+
+TEST_F(KeepingRenderer, StartsAfreshAfterAnError) {
+    render();
+    const RenderSettings good = settings_;
+    settings_.irradianceSize = 2;  // no room for the charts
+    EXPECT_THROW(renderer_.render(input_, settings_), Error);
+    settings_ = good;
+    EXPECT_EQ(render(), kAll);
+}
+
+// Repeats time all of the frame.
+TEST_F(KeepingRenderer, RepeatsRunEveryRow) {
+    render();
+    settings_.repeats = 2;
+    const RenderResult result = renderer_.render(input_, settings_);
+    for (const PassStats& pass : result.stats.passes) EXPECT_EQ(pass.repeatedMs.size(), 2u) << pass.name;
+    EXPECT_EQ(result.stats.lightMapsDrawn, 6 * kGroups);
+    settings_.repeats = 1;
+    EXPECT_EQ(render(0), "");
+}
+
+}  // namespace
+}  // namespace cutis::test
