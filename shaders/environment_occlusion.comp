@@ -99,8 +99,8 @@ void main() {
     texel = max(texel, ivec2(0));
     // Where charts meet, a probe belongs to the one that its texel is of.
     listed = listed && draws[max(uint(texelFetch(position, texel, 0).w), 1u) - 1u].chart == push.tiles.chart;
-    vec4 normals = texelFetch(normal, texel, 0);
-    vec3 n = decodeOctahedral(normals.zw), s = decodeOctahedral(normals.xy);
+    ProbePoint point = probePoint(probe, texel);
+    vec3 n = point.mappedNormal, s = point.smoothNormal;
     if (push.word > 0u) {
         seen = imageLoad(sums, ivec3(probe, 0));
         all = imageLoad(sums, ivec3(probe, 1));

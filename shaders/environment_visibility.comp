@@ -76,10 +76,10 @@ void main() {
     vec4 place = texelFetch(position, texel, 0);
     // Where charts meet, a probe belongs to the one that its texel is of.
     listed = listed && draws[max(uint(place.w), 1u) - 1u].chart == push.tiles.chart;
-    vec3 n = decodeOctahedral(texelFetch(normal, texel, 0).xy);
+    ProbePoint point = probePoint(probe, texel);
     const uint kNotClosed = MATERIAL_DOUBLE_SIDED | MATERIAL_MASK | MATERIAL_BLEND;  // DrawRange::closed
     bool ownSide = (materials[draws[max(uint(place.w), 1u) - 1u].material].flags & kNotClosed) != 0u;
-    uint bits = visibilityBits(place.xyz, n, ownSide);
+    uint bits = visibilityBits(point.position, point.smoothNormal, ownSide);
     if (listed) imageStore(visibility, ivec3(probe, push.word), uvec4(bits));
 #endif
 }
