@@ -275,7 +275,7 @@ std::vector<Option> makeOptions() {
              if (text != "min" && text != "opposite") refuse(text, "min or opposite");
              r.settings.merge = text == "min" ? Merge::min : Merge::opposite;
          }},
-        {"--chain", "NAME", kPicture | kCompare, quality,
+        {"--chain", "NAME", kPicture | kCompare | kViewer, quality,
          "How light is diffused: exact, or published, the chain of blurs as GPU Gems 3 prints it, to compare with "
          "(default: exact)",
          false,

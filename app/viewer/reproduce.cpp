@@ -55,6 +55,7 @@ std::string commandLine(Session& session) {
     if (settings.irradianceSize) line += " --irradiance-size " + std::to_string(settings.irradianceSize);
     if (settings.gaussians) line += " --gaussians " + std::to_string(settings.gaussians);
     if (settings.merge == Merge::opposite) line += " --merge opposite";
+    if (settings.chain == Chain::published) line += " --chain published";
     return line;
 }
 

@@ -89,6 +89,7 @@ struct Session {
     double wipe = 0.5;  // of the picture's width
 
     MixerStrip mixer;
+    std::uint64_t quality = 0;                  // grows whenever the settings in `request` change
     std::string overlay;                        // the AOV that is shown; empty: the picture
     std::optional<PlaceBy> placing;             // dragging in the picture places the chosen light
     double pictureAspect = 0;                   // width over height; 0: fills the view

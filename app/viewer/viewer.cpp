@@ -3,6 +3,8 @@
 #include <imgui.h>
 
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -72,8 +74,12 @@ class Viewer {
             saveNowAndThen();
         }
         discardAutosave();
-        window_.hide();  // the picture under way may take a while to end
+        window_.hide();
+        if (session_.writing.valid()) session_.writing.wait();
     }
+
+    // A picture is under way: only its end can be waited for.
+    bool rendering() const { return worker_.status().busy; }
 
   private:
     double pause() const {
@@ -306,6 +312,7 @@ class Viewer {
         std::uint64_t version = 0;
         int width = 0, height = 0;
         std::string overlay;
+        std::uint64_t quality = 0;
         bool set = false;
         bool operator==(const Key&) const = default;
     };
@@ -329,7 +336,12 @@ class Viewer {
 }  // namespace
 
 void runViewer(const Request& request) {
-    Viewer(request).run();
+    Viewer viewer(request);
+    viewer.run();
+    if (!viewer.rendering()) return;
+    // Nobody waits for a picture that nobody will see. All files are written; the system takes back the rest.
+    std::fflush(nullptr);
+    std::quick_exit(gpu::validationMessages() ? 1 : 0);
 }
 
 }  // namespace cutis::app

@@ -14,7 +14,8 @@ void drawCameraChoice(Session& session) {
     for (std::size_t i = 0; i < cameras.size(); ++i)
         if (view.camera == std::to_string(i) && !cameras[i].name.empty()) shown = cameras[i].name;
     label("Camera");
-    if (!ImGui::BeginCombo("##camera", shown.c_str())) return;
+    const bool open = ImGui::BeginCombo("##camera", shown.c_str());
+    if (!open) return optionHint("--camera");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const std::string index = std::to_string(i);
         const std::string name = cameras[i].name.empty() ? "camera " + index : cameras[i].name;
@@ -78,6 +79,7 @@ void drawCameraPanel(Session& session) {
     double exposure = session.document().rig.exposure;
     if (dragRow("Exposure", exposure, 0.02f, -16, 16, "%+.2f EV"))
         session.edits.apply("Exposure", [&](Document& document) { document.rig.exposure = exposure; });
+    hint("Of the rig: each step doubles what is shown");
 }
 
 }  // namespace cutis::app

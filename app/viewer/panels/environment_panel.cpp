@@ -81,11 +81,13 @@ void drawEnvironmentPanel(Session& session) {
         drawStrip(session, settings);
         bool changed = checkRow("On", settings.enabled);
         changed |= dragRow("Intensity", settings.intensity, 0.005f, 0, 1000, "%.3g", true);
+        optionHint("--env-intensity");
         double turn = settings.rotation - 360 * std::floor((settings.rotation + 180) / 360);
         if (sliderRow("Rotation", turn, -180, 180, "%.0f\xc2\xb0")) {
             settings.rotation = turn;
             changed = true;
         }
+        optionHint("--env-rotation");
         changed |=
             intRow("Suns", settings.shadowSamples, 0, 64, settings.shadowSamples ? "%d samples" : "none");
         hint("Its brightest parts, taken out as so many light samples: they cast sharp shadows");

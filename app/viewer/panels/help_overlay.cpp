@@ -30,10 +30,12 @@ void drawHelp(Session& session) {
     }
     heading("Mouse in the picture");
     ImGui::TextUnformatted(
-        "Left drag: turn the view, or move a light by its handle\n"
-        "Middle or right drag: move the view\n"
-        "Wheel: nearer or farther\n"
-        "Double click: frame the nearest person");
+        "Left drag: turn the view, or move a light by its handle (Shift: its distance, Alt: its cone or "
+        "size)\n"
+        "Ctrl and left drag on a face: the chosen light's highlight follows the mouse (with Shift: its "
+        "shadow's edge)\n"
+        "Middle or right drag: move the view.  Wheel: nearer or farther\n"
+        "Double click: frame the person.  F: look at the point under the mouse");
     heading("Files");
     ImGui::TextUnformatted("Drop a glTF scene, a rig or an HDR environment on the window to open it.");
     ImGui::End();

@@ -1,56 +1,119 @@
-// What ran for the picture, what did not and why.
+// What ran for the picture, what did not and why; and how exactly the next one is computed.
 #include <imgui.h>
+
+#include <cstdio>
+#include <utility>
 
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/panels/widgets.h"
 
 namespace cutis::app {
+namespace {
+
+// One of several values of a setting.
+template <class Value, std::size_t kCount>
+bool choiceRow(const char* text, const char* option, Value& value,
+               const std::pair<const char*, Value> (&choices)[kCount]) {
+    const char* shown = "as given";
+    for (const auto& [name, choice] : choices)
+        if (choice == value) shown = name;
+    label(text);
+    bool changed = false;
+    ImGui::PushID(text);
+    const bool open = ImGui::BeginCombo("##choice", shown);
+    if (!open) optionHint(option);
+    for (const auto& [name, choice] : choices) {
+        if (!open || !ImGui::Selectable(name, choice == value) || choice == value) continue;
+        value = choice;
+        changed = true;
+    }
+    if (open) ImGui::EndCombo();
+    ImGui::PopID();
+    return changed;
+}
+
+void drawQuality(Session& session) {
+    constexpr std::pair<const char*, int> kSizes[] = {{"automatic", 0}, {"512", 512},   {"1024", 1024},
+                                                      {"2048", 2048},   {"4096", 4096}, {"8192", 8192}};
+    constexpr std::pair<const char*, int> kGaussians[] = {{"all", 0}, {"1", 1}, {"2", 2}, {"3", 3},
+                                                          {"4", 4},   {"5", 5}, {"6", 6}};
+    constexpr std::pair<const char*, Merge> kMerges[] = {{"min", Merge::min}, {"opposite", Merge::opposite}};
+    constexpr std::pair<const char*, Chain> kChains[] = {{"exact", Chain::exact},
+                                                         {"published", Chain::published}};
+    heading("Quality");
+    RenderSettings& settings = session.request.settings;
+    bool changed = choiceRow("Atlas", "--irradiance-size", settings.irradianceSize, kSizes);
+    changed |= choiceRow("Gaussians", "--gaussians", settings.gaussians, kGaussians);
+    changed |= choiceRow("Merge", "--merge", settings.merge, kMerges);
+    changed |= choiceRow("Chain", "--chain", settings.chain, kChains);
+    if (changed) ++session.quality;
+}
+
+void drawFigures(const WorkerResult& picture) {
+    const RenderStats& stats = picture.stats;
+    heading("Picture");
+    const auto row = [](const char* name) { label(name); };
+    row("Size");
+    ImGui::Text("%d \xc3\x97 %d%s", picture.display.width, picture.display.height,
+                picture.full ? "" : " preview");
+    row("Time");
+    ImGui::Text("%.2f s", picture.seconds);
+    row("Lights");
+    ImGui::Text("%d in %d samples", stats.lights, stats.lightSamples);
+    row("Atlas");
+    ImGui::Text("%d\xc2\xb2, %.2f mm a texel", stats.atlasWidth, stats.atlasMmPerTexel);
+    row("Gaussians");
+    ImGui::Text("%d", stats.gaussians);
+    row("Memory");
+    ImGui::Text("%.0f MiB", double(stats.bytesGpu) / (1 << 20));
+    if (!stats.nonfinite) return;
+    row("Not finite");
+    ImGui::Text("%llu values", static_cast<unsigned long long>(stats.nonfinite));
+}
+
+void drawPasses(const RenderStats& stats) {
+    double total = 0;
+    for (const PassStats& pass : stats.passes) total += pass.gpuMs;
+    char title[64];
+    std::snprintf(title, sizeof title, "Runs: %.1f ms on the device", total);
+    heading(title);
+    if (!ImGui::BeginTable("passes", 2, ImGuiTableFlags_RowBg)) return;
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("00000.0 ms").x);
+    for (const PassStats& pass : stats.passes) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        if (pass.runs) {
+            ImGui::TextUnformatted(pass.name.c_str());
+        } else {
+            ImGui::TextDisabled("%s", pass.name.c_str());
+        }
+        ImGui::PushTextWrapPos();
+        ImGui::TextDisabled("%s", pass.reason.c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::TableNextColumn();
+        pass.runs ? ImGui::Text("%.1f ms", pass.gpuMs) : ImGui::TextDisabled("kept");
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace
 
 void drawPlanPanel(Session& session) {
+    drawQuality(session);
     if (!session.picture) {
         ImGui::TextDisabled("No picture yet");
         return;
     }
-    const RenderStats& stats = session.picture->stats;
-    heading("Picture");
-    const DisplayPicture& display = session.picture->display;
-    label("Size");
-    ImGui::Text("%d \xc3\x97 %d%s", display.width, display.height, session.picture->full ? "" : " preview");
-    label("Time");
-    ImGui::Text("%.2f s", session.picture->seconds);
-    label("Lights");
-    ImGui::Text("%d in %d samples", stats.lights, stats.lightSamples);
-    label("Atlas");
-    ImGui::Text("%d\xc2\xb2, %.2f mm a texel", stats.atlasWidth, stats.atlasMmPerTexel);
-    label("Gaussians");
-    ImGui::Text("%d", stats.gaussians);
-    label("Memory");
-    ImGui::Text("%.0f MiB", double(stats.bytesGpu) / (1 << 20));
-    if (stats.nonfinite) {
-        label("Not finite");
-        ImGui::Text("%llu values", static_cast<unsigned long long>(stats.nonfinite));
-    }
-    heading("Passes");
-    if (ImGui::BeginTable("passes", 2, ImGuiTableFlags_RowBg)) {
-        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
-        ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("00000.0 ms").x);
-        for (const PassStats& pass : stats.passes) {
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(pass.name.c_str());
-            hint(pass.reason.c_str());
-            ImGui::TableNextColumn();
-            ImGui::Text("%.1f ms", pass.gpuMs);
-        }
-        ImGui::EndTable();
-    }
+    drawFigures(*session.picture);
+    drawPasses(session.picture->stats);
     heading("Left out");
     ImGui::PushTextWrapPos();
-    for (const LeftOut& left : stats.leftOut) {
+    for (const LeftOut& left : session.picture->stats.leftOut) {
         ImGui::TextUnformatted(left.name.c_str());
         ImGui::TextDisabled("%s", left.reason.c_str());
     }
-    if (stats.leftOut.empty()) ImGui::TextDisabled("Nothing: this scene needs all passes");
+    if (session.picture->stats.leftOut.empty()) ImGui::TextDisabled("Nothing: this scene needs all passes");
     ImGui::PopTextWrapPos();
 }
 

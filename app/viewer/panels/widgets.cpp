@@ -66,6 +66,20 @@ void hint(const char* text) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
+void optionHint(const char* name) {
+    if (!ImGui::IsItemHovered()) return;
+    for (const Option& option : options()) {
+        if (option.longName() != name || !(option.commands & kViewer)) continue;
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
+        ImGui::TextUnformatted(option.help.c_str());
+        ImGui::TextDisabled("%s", name);
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+        return;
+    }
+}
+
 bool toggleButton(const char* text, bool on, unsigned color) {
     if (on) {
         ImGui::PushStyleColor(ImGuiCol_Button, color);

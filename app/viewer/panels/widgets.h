@@ -20,6 +20,8 @@ bool textRow(const char* text, std::string& value);
 // A heading with a thin line.
 void heading(const char* text);
 void hint(const char* text);  // shown when the mouse rests on the last control
+// The help of that option of the command line, which the control stands for.
+void optionHint(const char* option);
 // A small button that stays down while `on`.
 bool toggleButton(const char* text, bool on, unsigned color);
 
