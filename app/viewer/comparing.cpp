@@ -108,7 +108,9 @@ void takeStatePicture(Session& session, AsideResult result) {
 
 std::shared_ptr<const Picture> comparedWith(const Session& session) {
     if (session.compared[1].stored) return session.compared[1].linear;
-    return session.picture && session.picture->full ? session.picture->linear : nullptr;
+    const bool there =
+        session.picture && session.picture->full && session.picture->version == session.edits.version();
+    return there ? session.picture->linear : nullptr;
 }
 
 void updateDifference(Session& session) {

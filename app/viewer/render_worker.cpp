@@ -18,12 +18,16 @@ bool sameCamera(const Camera& a, const Camera& b) {
            a.ymag == b.ymag && a.aspect == b.aspect;
 }
 
-// All but the camera and the exposure.
-bool sameSubject(const RenderState& a, const RenderState& b) {
+bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
+    return a.width == b.width && a.height == b.height && a.irradianceSize == b.irradianceSize &&
+           a.gaussians == b.gaussians && a.merge == b.merge && a.chain == b.chain;
+}
+
+// All that lights the scene: what is left is the camera, the exposure and what is shown.
+bool sameLight(const RenderState& a, const RenderState& b) {
     Rig rig = a.rig;
     rig.exposure = b.rig.exposure;
-    return a.scene == b.scene && a.skin == b.skin && rig == b.rig && a.settings.width == b.settings.width &&
-           a.settings.height == b.settings.height && a.overlay == b.overlay;
+    return a.scene == b.scene && a.skin == b.skin && rig == b.rig && sameSettings(a.settings, b.settings);
 }
 
 // Turned by so little that samples fall elsewhere within a third of a pixel, which is how far apart they are:
@@ -148,41 +152,42 @@ void RenderWorker::run() {
     renderers_ = {};  // its device goes on the thread that it lived on
 }
 
-std::vector<double> RenderWorker::fractionsFor(const Job& job) const {
-    const bool moved = shown_ && sameSubject(shown_->state, job.state);
-    const double seconds = moved ? moveSeconds_ : changeSeconds_;
-    if (seconds >= 0 && seconds <= kInstant) return {1};
-    // A picture costs about as much as it has pixels.
-    double fraction = 0.25;
-    if (seconds >= 0) fraction = seconds / 4 <= kPreview ? 0.5 : seconds / 16 <= kPreview ? 0.25 : 0.125;
-    std::vector<double> fractions;
-    for (; fraction < 1; fraction *= 2) fractions.push_back(fraction);
-    fractions.push_back(1);
-    return fractions;
+bool RenderWorker::moved(const Job& job) const {
+    return shown_ && sameLight(shown_->state, job.state);
+}
+
+// A picture costs about as much as it has pixels.
+double RenderWorker::firstFraction(const Job& job) const {
+    const double seconds = moved(job) ? moveSeconds_ : changeSeconds_;
+    if (seconds >= 0 && seconds <= kInstant) return 1;
+    if (!moved(job) || seconds < 0) return kDraft;
+    return seconds / 4 <= kPreview ? 0.5 : seconds / 16 <= kPreview ? 0.25 : 0.125;
 }
 
 void RenderWorker::refine(const Job& job) {
     if (showAgain(job)) return;
     applySkin(*job.state.scene, job.state.skin);
-    const bool moved = shown_ && sameSubject(shown_->state, job.state);
-    for (const double fraction : fractionsFor(job)) {
-        WorkerResult result = render(job, fraction);
-        if (result.full) {
-            (moved ? moveSeconds_ : changeSeconds_) = result.seconds;
-            shown_ = job;
-            full_ = result;
-            full_.display = {};
-            accumulate(job, std::move(result));
-            return;
-        }
-        publish(std::move(result));
+    const bool onlyMoved = moved(job);
+    const double first = firstFraction(job);
+    if (first < 1) {
+        publish(render(job, first, !onlyMoved));
         if (stale()) return;
     }
+    if (first < 0.25) {
+        publish(render(job, 2 * first, !onlyMoved));
+        if (stale()) return;
+    }
+    WorkerResult result = render(job, 1, false);
+    (onlyMoved ? moveSeconds_ : changeSeconds_) = result.seconds;
+    shown_ = job;
+    full_ = result;
+    full_.display = {};
+    accumulate(job, std::move(result));
 }
 
 // Another exposure of the picture that is there needs no rendering.
 bool RenderWorker::showAgain(const Job& job) {
-    if (!shown_ || !job.state.overlay.empty() || !sameSubject(shown_->state, job.state) ||
+    if (!moved(job) || !job.state.overlay.empty() || !shown_->state.overlay.empty() ||
         !sameCamera(shown_->state.camera, job.state.camera))
         return false;
     shown_ = job;
@@ -208,7 +213,7 @@ void RenderWorker::accumulate(const Job& job, WorkerResult first) {
         }
         Job turned = job;
         turned.state.camera = jittered(job.state.camera, index, job.state.settings.height);
-        const WorkerResult more = render(turned, 1);
+        const WorkerResult more = render(turned, 1, false);
         if (more.linear->values.size() != sum.values.size()) return;
         for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += more.linear->values[i];
         result.refined = index + 1;
@@ -228,12 +233,14 @@ void RenderWorker::publish(WorkerResult result) {
     wake_();
 }
 
-WorkerResult RenderWorker::render(const Job& job, double fraction) {
+WorkerResult RenderWorker::render(const Job& job, double fraction, bool draft) {
     RenderSettings settings = job.state.settings;
     settings.width = std::max(1, static_cast<int>(std::lround(settings.width * fraction)));
     settings.height = std::max(1, static_cast<int>(std::lround(settings.height * fraction)));
     if (!job.state.overlay.empty()) settings.aovs = {job.state.overlay};
-    RenderResult rendered = draw(renderers_.view, job.state, settings);
+    // What lights the full picture lights the smaller ones too, and is kept.
+    if (!draft) settings.detail /= fraction;
+    RenderResult rendered = draw(draft ? renderers_.draft : renderers_.view, job.state, settings);
     WorkerResult result;
     result.version = job.version;
     result.full = fraction == 1;
@@ -246,16 +253,11 @@ WorkerResult RenderWorker::render(const Job& job, double fraction) {
 
 void RenderWorker::renderNextAside(const AsideJob& job) {
     applySkin(*job.state.scene, job.state.skin);
-    RenderResult rendered = draw(renderers_.aside, job.state, job.state.settings);
+    RenderResult rendered = draw(renderers_.draft, job.state, job.state.settings);
     AsideResult result{job.id, nullptr, toDisplay(rendered.picture, job.state.rig.exposure)};
     result.linear = std::make_shared<const Picture>(std::move(rendered.picture));
-    bool last = false;
-    {
-        const std::lock_guard lock(mutex_);
-        asideResults_.push_back(std::move(result));
-        last = aside_.empty();
-    }
-    if (last && renderers_.rest) renderers_.rest();
+    const std::lock_guard lock(mutex_);
+    asideResults_.push_back(std::move(result));
 }
 
 RenderResult RenderWorker::draw(const RenderFunction& renderer, const RenderState& state,

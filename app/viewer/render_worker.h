@@ -63,15 +63,10 @@ struct WorkerStatus {
 // How a picture is made of a state; the environment is the state's, loaded.
 using RenderFunction = std::function<RenderResult(const RenderInput&, const RenderSettings&)>;
 
-// What renders the view, and what renders beside it so that the view's caches stay what they are.
+// What renders the view, and what renders drafts of it and pictures beside it: apart, so that each keeps what
+// its next picture can use.
 struct Renderers {
-    RenderFunction view, aside;
-    std::function<void()> rest;  // no picture beside the view is asked for: what they need can be freed
-    Renderers() = default;
-    // One for both.
-    template <class Function>
-    requires std::is_constructible_v<RenderFunction, Function> Renderers(Function both)
-        : view(both), aside(both) {}
+    RenderFunction view, draft;
 };
 
 class RenderWorker {
@@ -84,9 +79,9 @@ class RenderWorker {
     RenderWorker(const RenderWorker&) = delete;
     RenderWorker& operator=(const RenderWorker&) = delete;
 
-    // Replaces whatever was asked for before. Where full pictures have taken longer than kInstant, smaller
-    // ones come first, so small that one takes about kPreview; when nothing newer arrives, more full ones are
-    // averaged.
+    // Replaces whatever was asked for before. Where full pictures have taken longer than kInstant, a smaller
+    // one comes first: after a move of the camera so small that it takes about kPreview, lit as the full one;
+    // after any other change a draft, coarsely lit. When nothing newer arrives, more full ones are averaged.
     void show(std::uint64_t version, RenderState state);
     void renderAside(AsideJob job);
     // Forgets jobs with an id in [first, last) that have not begun.
@@ -98,6 +93,7 @@ class RenderWorker {
     WorkerStatus status() const;
 
     static constexpr double kInstant = 0.1, kPreview = 0.25;  // seconds
+    static constexpr double kDraft = 0.25;                    // of width and height
     static constexpr int kRefinements = 8;                    // full pictures that are averaged
 
   private:
@@ -114,8 +110,9 @@ class RenderWorker {
     void renderNextAside(const AsideJob& job);
     void publish(WorkerResult result);
     bool stale() const;
-    std::vector<double> fractionsFor(const Job& job) const;
-    WorkerResult render(const Job& job, double fraction);
+    bool moved(const Job& job) const;
+    double firstFraction(const Job& job) const;
+    WorkerResult render(const Job& job, double fraction, bool draft);
     RenderResult draw(const RenderFunction& renderer, const RenderState& state,
                       const RenderSettings& settings);
     const Environment* environmentOf(const Rig& rig);

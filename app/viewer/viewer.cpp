@@ -40,10 +40,19 @@ std::string titleOf(const std::string& scene) {
 Renderers openRenderers(const std::string& select) {
     gpu::DeviceOptions options;
     options.select = select;
-    auto device = std::make_shared<gpu::Device>(options);
-    return [device](const RenderInput& input, const RenderSettings& settings) {
-        return renderPicture(*device, input, settings);
+    const auto device = std::make_shared<gpu::Device>(options);
+    const auto open = [&]() -> RenderFunction {
+        // The renderer goes before its device.
+        struct Opened {
+            std::shared_ptr<gpu::Device> device;
+            Renderer renderer{*device};
+        };
+        return [opened = std::make_shared<Opened>(device)](const RenderInput& input,
+                                                           const RenderSettings& settings) {
+            return opened->renderer.render(input, settings);
+        };
     };
+    return {open(), open()};
 }
 
 class Viewer {

@@ -23,7 +23,7 @@ void drawSlot(Session& session, std::size_t slot) {
     hint("Makes this state the current one; undo brings the other back");
     if (state.stored) {
         label("");
-        ImGui::TextDisabled("%s%s", state.name.c_str(), state.linear ? "" : ", on its way");
+        shortText((state.linear ? "" : "(to come) ") + state.name);
     }
     ImGui::PopID();
 }
@@ -67,7 +67,7 @@ void drawComparePanel(Session& session) {
     const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
     const float width = (ImGui::GetContentRegionAvail().x - gap) / 2;
     ImGui::BeginDisabled(!session.hasLight());
-    if (ImGui::Button("One light, all", {width, 0})) compareChosenLight(session);
+    if (ImGui::Button("Light against all", {width, 0})) compareChosenLight(session);
     ImGui::EndDisabled();
     hint("Stores all lights as A, the chosen one alone as B");
     ImGui::SameLine(0, gap);

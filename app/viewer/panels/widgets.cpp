@@ -66,6 +66,20 @@ void hint(const char* text) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
+void shortText(const std::string& text, bool dim) {
+    const float room = ImGui::GetContentRegionAvail().x;
+    std::string shown = text;
+    while (!shown.empty() && ImGui::CalcTextSize(shown.c_str()).x > room) {
+        // Without its last character, which may be several bytes, and its ellipsis.
+        if (shown.size() >= 3 && shown.ends_with("\xe2\x80\xa6")) shown.resize(shown.size() - 3);
+        while (!shown.empty() && (static_cast<unsigned char>(shown.back()) & 0xc0) == 0x80) shown.pop_back();
+        if (!shown.empty()) shown.pop_back();
+        if (!shown.empty()) shown += "\xe2\x80\xa6";
+    }
+    dim ? ImGui::TextDisabled("%s", shown.c_str()) : ImGui::TextUnformatted(shown.c_str());
+    if (shown != text) hint(text.c_str());
+}
+
 void optionHint(const char* name) {
     if (!ImGui::IsItemHovered()) return;
     for (const Option& option : options()) {

@@ -19,6 +19,8 @@ bool checkRow(const char* text, bool& value);
 bool textRow(const char* text, std::string& value);
 // A heading with a thin line.
 void heading(const char* text);
+// Text that ends in an ellipsis where the row ends, and is whole in a tooltip.
+void shortText(const std::string& text, bool dim = true);
 void hint(const char* text);  // shown when the mouse rests on the last control
 // The help of that option of the command line, which the control stands for.
 void optionHint(const char* option);
