@@ -1,6 +1,7 @@
 // What each part of `speed` prints: Markdown tables of medians, least and largest times.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,11 @@ void printDiffusion(gpu::Device& device, int repeats);
 
 // What one more light costs, against a light map and its share of irradiance measured alone.
 void printLights(gpu::Device& device, int repeats);
+
+// A frame of the default scene with eight lights: everything anew, one light moved, the camera moved; and the camera alone where
+// nothing is skin.
+void printFrames(gpu::Device& device, const std::filesystem::path& sceneFile, int repeats);
+// The same scene with 1 to 16 characters.
+void printCharacters(gpu::Device& device, const std::filesystem::path& sceneFile, int repeats);
 
 }  // namespace cutis::speed
