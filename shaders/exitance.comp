@@ -23,6 +23,7 @@ layout(binding = 9) uniform texture2DArray quarterLevels;
 #endif
 layout(binding = 1, scalar) readonly buffer GaussianBuffer { GaussianTerm gaussians[]; };
 layout(binding = 2, rgba32f) writeonly uniform image2D exitance;  // rgb: M; a: island, 0 where uncovered
+layout(binding = 10, scalar) buffer NonfiniteBuffer { uint nonfinite; };  // values
 #ifdef TRANSLUCENCY
 layout(binding = 3) uniform texture2D entry;     // xy: texels, x < 0: none; z: thickness, mm
 layout(binding = 6) uniform texture2D position;  // metres
@@ -147,4 +148,7 @@ void main() {
     addLevels(quarterLevels, push.firstQuarter, chart.gaussianCount, 0.25, texel, island, chart);
 #endif
     imageStore(exitance, texel, vec4(sum, island));
+    // By their bits: compilers may take isnan and isinf to be false.
+    bvec3 bad = equal(floatBitsToUint(sum) & 0x7f800000u, uvec3(0x7f800000u));
+    if (any(bad)) atomicAdd(nonfinite, uint(bad.x) + uint(bad.y) + uint(bad.z));
 }

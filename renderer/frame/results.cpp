@@ -75,7 +75,7 @@ Readbacks recordReadbacks(const FrameContext& frame, bool lit) {
     if (frame.target.aovs) readbacks.aovs = frame.commands->readback(frame.target.aovs);
     readbacks.skin = lit && frame.skin.exitance;
     if (readbacks.skin) {
-        readbacks.exitance = frame.commands->readback(frame.skin.exitance);
+        readbacks.nonfinite = frame.commands->readback(frame.skin.nonfinite);
         readbacks.tileCounts = frame.commands->readback(frame.tiles.counts);
     }
     return readbacks;
@@ -83,9 +83,8 @@ Readbacks recordReadbacks(const FrameContext& frame, bool lit) {
 
 void takePictures(const FrameContext& frame, const Readbacks& readbacks, SkinFigures& skin, RenderResult& result) {
     const int width = frame.settings->width, height = frame.settings->height;
-    const std::vector<float> picture = readbacks.picture.as<float>();
-    result.stats.nonfinite += countNonfinite(picture);
-    result.picture = Picture{width, height, 4, picture};
+    result.picture = Picture{width, height, 4, readbacks.picture.as<float>()};
+    result.stats.nonfinite += countNonfinite(result.picture.values);
     if (frame.target.aovs) {
         const std::vector<float> all = readbacks.aovs.as<float>();
         const std::size_t layerSize = std::size_t(width) * height * 4;
@@ -98,7 +97,7 @@ void takePictures(const FrameContext& frame, const Readbacks& readbacks, SkinFig
     }
     if (readbacks.skin) {
         const CoveredTexels texels = coveredTexels(readbacks.tileCounts);
-        skin = {texels.all, texels.lit, countNonfinite(readbacks.exitance.as<float>())};
+        skin = {texels.all, texels.lit, readbacks.nonfinite.as<std::uint32_t>().at(0)};
     } else if (!frame.skin.exitance) {
         skin = {};
     }

@@ -9,8 +9,8 @@
 namespace cutis {
 
 struct Readbacks {
-    gpu::Readback picture, aovs, exitance, tileCounts;
-    bool skin = false;  // exitance and tileCounts are there
+    gpu::Readback picture, aovs, nonfinite, tileCounts;
+    bool skin = false;  // nonfinite and tileCounts are there
 };
 
 // Of the lit atlas; kept while it is.

@@ -20,8 +20,12 @@ void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuf
     const auto size = static_cast<std::uint32_t>(surface.size);
     light.exitance = gpu::Image(
         device, {.name = "exitance", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
-    gpu::Bindings bindings{
-        {"stretch", surface.stretch}, {"GaussianBuffer", scene.gaussians}, {"exitance", light.exitance}};
+    light.nonfinite = gpu::Buffer(device, {.name = "values that are not finite", .bytes = sizeof(std::uint32_t)});
+    commands.fill(light.nonfinite, 0);
+    gpu::Bindings bindings{{"stretch", surface.stretch},
+                           {"GaussianBuffer", scene.gaussians},
+                           {"exitance", light.exitance},
+                           {"NonfiniteBuffer", light.nonfinite}};
     std::string shader = "exitance.comp";
     const gpu::Image& entry = light.entry ? light.entry : surface.opposite;
     if (entry) {

@@ -118,6 +118,7 @@ struct SkinLight {
     gpu::Image visibility;  // a layer a light: share of it that arrives; only with shadows
     DiffusionLevels levels;
     gpu::Image exitance;
+    gpu::Buffer nonfinite;  // number of its values that are not finite
 };
 
 // Texels as they are, clamped at the edge.

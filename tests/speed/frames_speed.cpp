@@ -55,7 +55,9 @@ FrameTimes timeFrames(Renderer& renderer, const Stage& stage, int repeats, const
         for (const PassStats& pass : stats.passes) {
             if (pass.runs == 0) continue;
             sum += pass.gpuMs;
-            times.ran += (times.ran.empty() ? "" : " ") + pass.name;
+            char text[80];
+            std::snprintf(text, sizeof text, "%s%s %.2f", times.ran.empty() ? "" : ", ", pass.name.c_str(), pass.gpuMs);
+            times.ran += text;
         }
         device.push_back(sum);
         wall.push_back(stats.loadMs + stats.frameMs);
@@ -85,7 +87,10 @@ void printFrames(gpu::Device& device, const std::filesystem::path& sceneFile, in
     Renderer renderer(device);
     std::printf("\n%zu characters, %zu lights, environment, %d x %d\n\n", stage.scene.characters.size(),
                 stage.input.rig.lights.size(), stage.settings.width, stage.settings.height);
-    std::printf("| what changed | device, ms: median (least to most) | wall, ms | passes that ran |\n|---|---|---|---|\n");
+    const RenderStats stats = renderer.render(stage.input, stage.settings).stats;
+    std::printf("Atlas of %d², %.2f mm a texel, %llu texels lit, %.0f MB\n\n", stats.atlasWidth, stats.atlasMmPerTexel,
+                static_cast<unsigned long long>(stats.atlasTexelsLit), double(stats.bytesGpu) / 1e6);
+    std::printf("| what changed | device, ms: median (least to most) | wall, ms | passes that ran, ms |\n|---|---|---|---|\n");
     const auto print = [&](const char* name, const std::function<void(int)>& change) {
         printRow(name, timeFrames(renderer, stage, repeats, change));
     };
