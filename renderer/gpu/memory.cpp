@@ -16,6 +16,7 @@ struct MemoryBlock {
     VkDeviceSize bytes = 0;
     std::uint32_t type = 0;
     bool linear = false;
+    bool own = false;  // made for one large allocation
     std::byte* mapped = nullptr;
     std::map<VkDeviceSize, VkDeviceSize> freeRanges;
 
@@ -55,6 +56,9 @@ struct MemoryBlock {
 namespace {
 
 constexpr VkDeviceSize kBlockBytes = VkDeviceSize(64) << 20;
+// Large blocks that fall empty stay for the next frame, whose images are of about the same sizes: a driver
+// takes tens of milliseconds for a gigabyte. At most this much, and this share of the heap.
+constexpr VkDeviceSize kSpareBytes = VkDeviceSize(2) << 30, kSpareShare = 8;
 
 std::string megabytes(VkDeviceSize bytes) {
     char text[32];
@@ -112,12 +116,16 @@ MemoryBlock& MemoryAllocator::addBlock(std::uint32_t type, bool linear, VkDevice
     if (needed > std::min(heap, maxAllocation_)) fail("out of device memory");
     auto block = std::make_unique<MemoryBlock>();
     const VkDeviceSize shared = std::min(kBlockBytes, heap / 16);
-    // What takes more than half a block gets one of its own: nothing would fit beside it for long.
-    block->bytes = needed > shared / 2 ? needed : shared;
+    block->own = takesOwnBlock(type, needed);
+    block->bytes = block->own ? needed : shared;
     block->type = type;
     block->linear = linear;
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, block->bytes, type};
     VkResult result = vkAllocateMemory(device_, &info, nullptr, &block->memory);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+        freeSpareBlocks(0);
+        result = vkAllocateMemory(device_, &info, nullptr, &block->memory);
+    }
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY && block->bytes > needed) {
         info.allocationSize = block->bytes = needed;
         result = vkAllocateMemory(device_, &info, nullptr, &block->memory);
@@ -142,8 +150,11 @@ Allocation MemoryAllocator::allocate(const VkMemoryRequirements& needs, MemoryUs
     const std::uint32_t type = chooseType(needs.memoryTypeBits, use);
     MemoryBlock* home = nullptr;
     std::optional<VkDeviceSize> offset;
+    const bool own = takesOwnBlock(type, needs.size);
     for (const auto& block : blocks_) {
-        if (block->type != type || block->linear != linear) continue;
+        if (block->type != type || block->linear != linear || block->own != own) continue;
+        // A spare block that is much too large would be missed by what it was made for.
+        if (own && block->bytes > needs.size + needs.size / 2) continue;
         if ((offset = block->take(needs.size, needs.alignment))) {
             home = block.get();
             break;
@@ -164,14 +175,37 @@ void MemoryAllocator::release(const Allocation& allocation) {
     block.giveBack(allocation.offset, allocation.bytes);
     bytes_ -= allocation.bytes;
     if (!block.empty()) return;
-    // One empty block of each kind is kept for the next frame; a second one, or a large one, goes back.
+    if (block.own) {
+        const VkDeviceSize heap = properties_.memoryHeaps[properties_.memoryTypes[block.type].heapIndex].size;
+        freeSpareBlocks(std::min(kSpareBytes, heap / kSpareShare));
+        return;
+    }
+    // One empty shared block of each kind is kept; a second one goes back.
     const bool another = std::any_of(blocks_.begin(), blocks_.end(), [&](const auto& other) {
-        return other.get() != &block && other->type == block.type && other->linear == block.linear &&
-               other->empty();
+        return other.get() != &block && !other->own && other->type == block.type &&
+               other->linear == block.linear && other->empty();
     });
-    if (!another && block.bytes <= kBlockBytes) return;
+    if (!another) return;
     vkFreeMemory(device_, block.memory, nullptr);
     std::erase_if(blocks_, [&](const auto& other) { return other.get() == &block; });
+}
+
+// The oldest go first.
+void MemoryAllocator::freeSpareBlocks(VkDeviceSize kept) {
+    VkDeviceSize spare = 0;
+    for (const auto& block : blocks_) spare += block->own && block->empty() ? block->bytes : 0;
+    std::erase_if(blocks_, [&](const auto& block) {
+        if (spare <= kept || !block->own || !block->empty()) return false;
+        spare -= block->bytes;
+        vkFreeMemory(device_, block->memory, nullptr);
+        return true;
+    });
+}
+
+bool MemoryAllocator::takesOwnBlock(std::uint32_t type, VkDeviceSize bytes) const {
+    // Nothing would fit beside it for long.
+    const VkDeviceSize heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
+    return bytes > std::min(kBlockBytes, heap / 16) / 2;
 }
 
 }  // namespace cutis::gpu

@@ -1,4 +1,5 @@
-// Device memory in large blocks, handed out in pieces and reused.
+// Device memory in large blocks, handed out in pieces and reused. What is large has a block of its own, kept for a while
+// when it is empty.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -46,6 +47,9 @@ class MemoryAllocator {
 
   private:
     std::uint32_t chooseType(std::uint32_t allowedTypes, MemoryUse use) const;
+    bool takesOwnBlock(std::uint32_t type, VkDeviceSize bytes) const;
+    // Frees empty blocks of single allocations until they hold no more than `kept` bytes.
+    void freeSpareBlocks(VkDeviceSize kept);
     MemoryBlock& addBlock(std::uint32_t type, bool linear, VkDeviceSize needed, const std::string& name);
 
     VkDevice device_;

@@ -34,7 +34,8 @@ void loadStage(Stage& stage, const std::filesystem::path& sceneFile, bool gpu) {
     stage.settings.height = gpu ? 1080 : 720;
     stage.input.scene = &stage.scene;
     stage.input.environment = &stage.environment;
-    stage.input.camera = cameraFor(stage.scene, "group", double(stage.settings.width) / stage.settings.height);
+    stage.input.camera =
+        cameraFor(stage.scene, "group", double(stage.settings.width) / stage.settings.height);
 }
 
 struct FrameTimes {
@@ -43,7 +44,8 @@ struct FrameTimes {
 };
 
 // Frames that follow each other, `change(i)` before each; the first two are not counted.
-FrameTimes timeFrames(Renderer& renderer, const Stage& stage, int repeats, const std::function<void(int)>& change) {
+FrameTimes timeFrames(Renderer& renderer, const Stage& stage, int repeats,
+                      const std::function<void(int)>& change) {
     std::vector<double> device, wall;
     FrameTimes times;
     for (int i = -2; i < repeats; ++i) {
@@ -56,7 +58,8 @@ FrameTimes timeFrames(Renderer& renderer, const Stage& stage, int repeats, const
             if (pass.runs == 0) continue;
             sum += pass.gpuMs;
             char text[80];
-            std::snprintf(text, sizeof text, "%s%s %.2f", times.ran.empty() ? "" : ", ", pass.name.c_str(), pass.gpuMs);
+            std::snprintf(text, sizeof text, "%s%s %.2f", times.ran.empty() ? "" : ", ", pass.name.c_str(),
+                          pass.gpuMs);
             times.ran += text;
         }
         device.push_back(sum);
@@ -68,7 +71,8 @@ FrameTimes timeFrames(Renderer& renderer, const Stage& stage, int repeats, const
 }
 
 void printRow(const char* name, const FrameTimes& times) {
-    std::printf("| %s | %s | %.1f | %s |\n", name, toText(times.device).c_str(), times.wall.median, times.ran.c_str());
+    std::printf("| %s | %s | %.1f | %s |\n", name, toText(times.device).c_str(), times.wall.median,
+                times.ran.c_str());
 }
 
 void turnCamera(Camera& camera, double degrees) {
@@ -88,26 +92,33 @@ void printFrames(gpu::Device& device, const std::filesystem::path& sceneFile, in
     std::printf("\n%zu characters, %zu lights, environment, %d x %d\n\n", stage.scene.characters.size(),
                 stage.input.rig.lights.size(), stage.settings.width, stage.settings.height);
     const RenderStats stats = renderer.render(stage.input, stage.settings).stats;
-    std::printf("Atlas of %d², %.2f mm a texel, %llu texels lit, %.0f MB\n\n", stats.atlasWidth, stats.atlasMmPerTexel,
-                static_cast<unsigned long long>(stats.atlasTexelsLit), double(stats.bytesGpu) / 1e6);
-    std::printf("| what changed | device, ms: median (least to most) | wall, ms | passes that ran, ms |\n|---|---|---|---|\n");
+    std::printf("Atlas of %d², %.2f mm a texel, %llu texels lit, %.0f MB\n\n", stats.atlasWidth,
+                stats.atlasMmPerTexel, static_cast<unsigned long long>(stats.atlasTexelsLit),
+                double(stats.bytesGpu) / 1e6);
+    std::printf(
+        "| what changed | device, ms: median (least to most) | wall, ms | passes that ran, ms "
+        "|\n|---|---|---|---|\n");
     const auto print = [&](const char* name, const std::function<void(int)>& change) {
         printRow(name, timeFrames(renderer, stage, repeats, change));
     };
     print("everything", [&](int) { renderer.forget(); });
     print("a light's place", [&](int i) { stage.input.rig.lights[1].position.x += i % 2 ? 0.01 : -0.01; });
-    print("a light's intensity", [&](int i) { stage.input.rig.lights[1].intensity *= i % 2 ? 1.1 : 1 / 1.1; });
+    print("a light's intensity",
+          [&](int i) { stage.input.rig.lights[1].intensity *= i % 2 ? 1.1 : 1 / 1.1; });
     print("the environment's rotation", [&](int) { stage.input.rig.environment.rotation += 5; });
     print("the camera", [&](int i) { turnCamera(stage.input.camera, i % 2 ? 1 : -1); });
-    const FrameTimes skin = timeFrames(renderer, stage, repeats, [&](int i) { turnCamera(stage.input.camera, i % 2 ? 1 : -1); });
+    const FrameTimes skin =
+        timeFrames(renderer, stage, repeats, [&](int i) { turnCamera(stage.input.camera, i % 2 ? 1 : -1); });
     Stage bare = stage;
     bare.input.scene = &bare.scene;
     bare.input.environment = &bare.environment;
     selectSkin(bare.scene, "none");
     Renderer bareRenderer(device);
-    const FrameTimes none = timeFrames(bareRenderer, bare, repeats, [&](int i) { turnCamera(bare.input.camera, i % 2 ? 1 : -1); });
+    const FrameTimes none = timeFrames(bareRenderer, bare, repeats,
+                                       [&](int i) { turnCamera(bare.input.camera, i % 2 ? 1 : -1); });
     printRow("the camera, nothing is skin", none);
-    std::printf("\nCamera-only frame over that without skin: %.2f\n", skin.device.median / none.device.median);
+    std::printf("\nCamera-only frame over that without skin: %.2f\n",
+                skin.device.median / none.device.median);
 }
 
 void printCharacters(gpu::Device& device, const std::filesystem::path& sceneFile, int repeats) {
@@ -119,7 +130,8 @@ void printCharacters(gpu::Device& device, const std::filesystem::path& sceneFile
         stage.settings.repeats = repeats;
         const RenderStats stats = renderPicture(device, stage.input, stage.settings).stats;
         const double frame = timeOf(stats, "").median;
-        std::printf("| %d | %llu | %.2f | %.1f | %.0f |\n", count, static_cast<unsigned long long>(stats.atlasTexelsLit), frame,
+        std::printf("| %d | %llu | %.2f | %.1f | %.0f |\n", count,
+                    static_cast<unsigned long long>(stats.atlasTexelsLit), frame,
                     frame * 1e6 / double(stats.atlasTexelsLit), double(stats.bytesGpu) / 1e6);
     }
 }

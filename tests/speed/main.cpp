@@ -1,4 +1,5 @@
-// speed [--device NAME] [--scene FILE] [diffusion] [lights] [frames] [characters]: the tables of docs/speed.md.
+// speed [--device NAME] [--scene FILE] [diffusion] [lights] [frames] [characters]: the tables of
+// docs/speed.md.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -49,7 +50,8 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
         if (!std::strcmp(argv[i], "--device") && i + 1 < argc)
             device = argv[++i];
-        else if (!std::strcmp(argv[i], "--scene") && i + 1 < argc) scene = argv[++i];
+        else if (!std::strcmp(argv[i], "--scene") && i + 1 < argc)
+            scene = argv[++i];
         else
             parts.emplace_back(argv[i]);
     }
@@ -63,8 +65,8 @@ int main(int argc, char** argv) {
         std::printf("%s, %d repeats\n\n", gpu.info().name.c_str(), repeats);
         if (wanted("diffusion")) speed::printDiffusion(gpu, repeats);
         if (wanted("lights")) speed::printLights(gpu, repeats);
-        if (wanted("frames")) speed::printFrames(gpu, scene, repeats);
-        if (wanted("characters")) speed::printCharacters(gpu, scene, repeats);
+        if (wanted("frames")) speed::printFrames(gpu, scene, std::min(repeats, 20));
+        if (wanted("characters")) speed::printCharacters(gpu, scene, std::min(repeats, 12));
     } catch (const Error& error) {
         std::fprintf(stderr, "speed: %s\n", error.what());
         return 1;
