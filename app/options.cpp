@@ -177,6 +177,9 @@ std::vector<Option> makeOptions() {
          "Also write two estimates that share no random number, OUT.a.exr and OUT.b.exr, and OUT.a.diffuse.exr and "
          "OUT.b.diffuse.exr: what makes an error estimate unbiased",
          false, [](Request& r, const std::string&) { r.halves = true; }},
+        {"--stats", "FILE", kViewer, "Window",
+         "When the window closes, write how long frames took, and how long pictures took to follow edits", false,
+         [](Request& r, const std::string& text) { r.stats = parseText(text); }},
         {"--stats", "FILE", kPicture, output,
          "Write what ran, what was left out and why, times and bytes as JSON", false,
          [](Request& r, const std::string& text) { r.stats = parseText(text); }},

@@ -84,7 +84,9 @@ void RenderWorker::renderAside(AsideJob job) {
     {
         const std::lock_guard lock(mutex_);
         std::erase_if(aside_, [&](const AsideJob& other) { return other.id == job.id; });
-        aside_.push_back(std::move(job));
+        const auto place =
+            std::find_if(aside_.begin(), aside_.end(), [&](const AsideJob& o) { return o.id > job.id; });
+        aside_.insert(place, std::move(job));
     }
     changed_.notify_all();
 }

@@ -42,7 +42,7 @@ struct WorkerResult {
 
 // A picture beside the view: a thumbnail, the share of one light. Rendered when the view is up to date.
 struct AsideJob {
-    int id = 0;  // a newer job of the same id replaces an older one
+    int id = 0;  // a newer job of the same id replaces an older one; smaller ones come first
     RenderState state;
 };
 struct AsideResult {

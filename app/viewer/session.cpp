@@ -90,9 +90,17 @@ void updateDerived(Session& session) {
     if (!session.geometry || session.derivedVersion == session.edits.version()) return;
     session.derivedVersion = session.edits.version();
     const Document& document = session.document();
-    if (document.scene == session.openedScene) applySkin(*session.geometry, document.skin);
-    const Bounds head = headBounds(*session.geometry, "*");
-    session.headCentre = head.empty() ? glm::dvec3(0) : head.centre();
+    // A head is found among all vertices: only when what is skin may have changed.
+    if (session.derivedGeometry != session.geometry || session.derivedSkin != document.skin) {
+        if (document.scene == session.openedScene) applySkin(*session.geometry, document.skin);
+        const Bounds head = headBounds(*session.geometry, "*");
+        session.headCentre = head.empty() ? glm::dvec3(0) : head.centre();
+        session.derivedGeometry = session.geometry;
+        session.derivedSkin = document.skin;
+    } else if (session.derivedRig == document.rig) {
+        return;
+    }
+    session.derivedRig = document.rig;
     session.headIrradiance.clear();
     for (const Light& light : document.rig.lights) {
         double irradiance = 0;

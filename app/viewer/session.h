@@ -20,10 +20,10 @@
 
 namespace cutis::app {
 
-// Numbers of pictures in the window, and of what is rendered beside the view.
+// Numbers of pictures in the window, and of what is rendered beside the view: the smaller the sooner.
 inline constexpr int kRoomPicture = -1;  // one dark pixel: what is about the view
 inline constexpr int kLivePicture = 0, kPictureA = 1, kPictureB = 2, kDifferencePicture = 3, kMixPicture = 4;
-inline constexpr int kPresetPictures = 100, kEnvironmentPictures = 1000, kLightPictures = 10000;  // and on
+inline constexpr int kLightPictures = 100, kPresetPictures = 100000, kEnvironmentPictures = 200000;  // and on
 
 // A state that was put aside, with its full picture once that is rendered.
 struct StoredState {
@@ -69,6 +69,9 @@ struct Session {
     glm::dvec3 headCentre{0};            // of everyone's heads: what lights turn round
     std::vector<double> headIrradiance;  // per light, luminance at the head that it faces, as if it were on
     std::uint64_t derivedVersion = 0;    // of the edit list, when these were computed
+    std::shared_ptr<Scene> derivedGeometry;  // these follow from
+    std::vector<std::optional<SkinMaterial>> derivedSkin;
+    Rig derivedRig;
 
     int selectedLight = 0, selectedMaterial = -1, selectedCharacter = -1;  // -1: none, everyone
     PixelRect room;  // between the panels: the view and bars about it

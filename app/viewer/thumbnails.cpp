@@ -57,6 +57,7 @@ void requestPresetThumbnails(Session& session) {
     const int character = session.geometry->characters.empty() ? -1 : std::max(session.selectedCharacter, 0);
     const double aspect = double(kThumbnailWidth) / kThumbnailHeight;
     frameSubject(camera, *session.geometry, character, Framing::face, aspect);
+    camera.distance *= 0.75;  // nearer than for a portrait: the face alone tells the lighting
     for (std::size_t i = 0; i < presets().size(); ++i) {
         Document document = session.document();
         document.rig = presetRig(presets()[i].name);

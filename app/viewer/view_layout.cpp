@@ -65,14 +65,16 @@ std::vector<PicturePart> pictureParts(const Session& session) {
         parts.push_back({current, view, view});
         return parts;
     }
-    const int other = session.compared[1].stored ? kPictureB : current;
+    // A state whose picture is still to come shows as the current one.
+    const int first = session.compared[0].linear ? kPictureA : current;
+    const int other = session.compared[1].linear ? kPictureB : current;
     PixelRect left = view, right = view;
     switch (session.compareMode) {
         case CompareMode::blink: {
             const double time =
                 std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-            const bool first = std::fmod(time, 2 * kBlinkPeriod) < kBlinkPeriod;
-            parts.push_back({first ? kPictureA : other, view, view});
+            const bool ofFirst = std::fmod(time, 2 * kBlinkPeriod) < kBlinkPeriod;
+            parts.push_back({ofFirst ? first : other, view, view});
             break;
         }
         case CompareMode::sideBySide:  // both whole, at half the size
@@ -80,17 +82,17 @@ std::vector<PicturePart> pictureParts(const Session& session) {
             left.height = right.height = view.height / 2;
             left.y = right.y = view.y + view.height / 4;
             right.x += left.width;
-            parts.push_back({kPictureA, left, left});
+            parts.push_back({first, left, left});
             parts.push_back({other, right, right});
             break;
         case CompareMode::difference:
-            parts.push_back({kDifferencePicture, view, view});
+            parts.push_back({session.figures ? kDifferencePicture : current, view, view});
             break;
         default:
             left.width = static_cast<int>(session.wipe * view.width);
             right.x += left.width;
             right.width -= left.width;
-            parts.push_back({kPictureA, view, left});
+            parts.push_back({first, view, left});
             parts.push_back({other, view, right});
     }
     return parts;

@@ -11,6 +11,7 @@
 
 #include "app/viewer/actions.h"
 #include "app/viewer/comparing.h"
+#include "app/viewer/frame_times.h"
 #include "app/viewer/hot_keys.h"
 #include "app/viewer/mixing.h"
 #include "app/viewer/panels/panels.h"
@@ -76,14 +77,17 @@ class Viewer {
     void run() {
         while (!session_.quit) {
             window_.waitEvents(pause());
+            const Clock::time_point begun = Clock::now();
             takeNews();
             takeInput();
             if (window_.beginFrame()) drawFrame();
             showNewest();
             saveNowAndThen();
+            times_.addFrame(std::chrono::duration<double>(Clock::now() - begun).count(), turning());
         }
         discardAutosave();
         window_.hide();
+        if (!session_.request.stats.empty()) times_.write(session_.request.stats);
         if (session_.writing.valid()) session_.writing.wait();
     }
 
@@ -91,6 +95,12 @@ class Viewer {
     bool rendering() const { return worker_.status().busy; }
 
   private:
+    // The view is being dragged.
+    bool turning() const {
+        const ImGuiIO& io = ImGui::GetIO();
+        return !io.WantCaptureMouse && (io.MouseDown[0] || io.MouseDown[1] || io.MouseDown[2]);
+    }
+
     double pause() const {
         if (ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || frames_ > 0) return kActive;
         const bool working = loader_.loading() || session_.worker.busy || session_.writing.valid() ||
@@ -128,6 +138,7 @@ class Viewer {
         session_.loadingSeconds = loader_.loading() ? loader_.seconds() : 0;
         session_.worker = worker_.status();
         if (std::optional<WorkerResult> result = worker_.takeResult()) {
+            times_.addPicture(*result, turning());
             session_.uploads.emplace_back(kLivePicture, std::move(result->display));
             session_.picture = std::move(*result);
         }
@@ -147,7 +158,8 @@ class Viewer {
     void takeAside(AsideResult result) {
         if (result.id == kPictureA || result.id == kPictureB)
             return takeStatePicture(session_, std::move(result));
-        if (result.id >= kLightPictures) return takeLightPicture(session_, std::move(result));
+        if (result.id >= kLightPictures && result.id < kPresetPictures)
+            return takeLightPicture(session_, std::move(result));
         if (result.linear) session_.uploads.emplace_back(result.id, std::move(result.display));
     }
 
@@ -291,7 +303,10 @@ class Viewer {
                       true};
         waits_ = false;
         if (key == shownKey_) return;
-        if (key.version != seenVersion_) changed_ = Clock::now();
+        if (key.version != seenVersion_) {
+            changed_ = Clock::now();
+            times_.addEdit(key.version, turning());
+        }
         seenVersion_ = key.version;
         // While the mixer shows what is edited, nothing needs to be rendered until the faders rest.
         waits_ = mixShows(session_) && Clock::now() - changed_ < std::chrono::duration<double>(kMixPause);
@@ -339,6 +354,7 @@ class Viewer {
     std::uint64_t seenVersion_ = 0;
     bool waits_ = false;  // the mixer shows a change that is not rendered yet
     EnvironmentThumbnails environmentThumbnails_;
+    FrameTimes times_;
     RenderWorker worker_;  // last: it ends first
 };
 

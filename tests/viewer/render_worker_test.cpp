@@ -27,7 +27,9 @@ RenderState stateOf(double exposure, int width = 400, int height = 200) {
 
 // One function for the view and for drafts.
 Renderers both(const RenderFunction& function) {
-    return {function, function};
+    Renderers renderers;
+    renderers.view = renderers.draft = function;
+    return renderers;
 }
 
 RenderResult greyPicture(const RenderSettings& settings) {
