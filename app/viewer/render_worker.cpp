@@ -9,6 +9,7 @@
 #include "app/viewer/document.h"
 #include "app/viewer/overlay.h"
 #include "renderer/scene/environment.h"
+#include "renderer/scene/light_samples.h"
 
 namespace cutis::app {
 namespace {
@@ -50,6 +51,20 @@ Camera jittered(Camera camera, int index, int height) {
     camera.world = glm::rotate(camera.world, dx * angle, glm::dvec3(0, 1, 0));
     camera.world = glm::rotate(camera.world, dy * angle, glm::dvec3(1, 0, 0));
     return camera;
+}
+
+// Light maps are most of what a light that moves costs.
+constexpr int kDraftLightMap = 256, kDraftSamples = 4;
+
+RenderSettings draftOf(RenderSettings settings) {
+    if (settings.lightMapSize == 0) settings.lightMapSize = kDraftLightMap;
+    return settings;
+}
+
+RenderState draftOf(RenderState state) {
+    for (Light& light : state.rig.lights)
+        if (sampleCount(light) > kDraftSamples) light.samples = kDraftSamples;
+    return state;
 }
 
 DisplayPicture displayOf(const RenderState& state, const RenderResult& rendered) {
@@ -240,9 +255,13 @@ WorkerResult RenderWorker::render(const Job& job, double fraction, bool draft) {
     settings.width = std::max(1, static_cast<int>(std::lround(settings.width * fraction)));
     settings.height = std::max(1, static_cast<int>(std::lround(settings.height * fraction)));
     if (!job.state.overlay.empty()) settings.aovs = {job.state.overlay};
-    // What lights the full picture lights the smaller ones too, and is kept.
-    if (!draft) settings.detail /= fraction;
-    RenderResult rendered = draw(draft ? renderers_.draft : renderers_.view, job.state, settings);
+    RenderResult rendered;
+    if (draft) {
+        rendered = draw(renderers_.draft, draftOf(job.state), draftOf(settings));
+    } else {
+        settings.detail /= fraction;  // what lights the full picture lights the smaller ones too, and is kept
+        rendered = draw(renderers_.view, job.state, settings);
+    }
     WorkerResult result;
     result.version = job.version;
     result.full = fraction == 1;

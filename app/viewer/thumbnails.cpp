@@ -71,6 +71,7 @@ void requestPresetThumbnails(Session& session) {
             job.state.camera = toCamera(camera, aspect);
             job.state.settings.width = kThumbnailWidth;
             job.state.settings.height = kThumbnailHeight;
+            job.state.settings.lightMapSize = 512;  // texels: the face is 60 pixels high
             session.asideJobs.push_back(std::move(job));
         } catch (const Error&) {  // a scene that is empty: no thumbnail
         }

@@ -26,7 +26,7 @@ std::string workText(const Session& session) {
                       picture.display.width, picture.display.height, picture.seconds, picture.refined,
                       RenderWorker::kRefinements);
         if (worker.aside > 0)
-            std::snprintf(text + std::strlen(text), sizeof text - std::strlen(text), "; %zu pictures to come",
+            std::snprintf(text + std::strlen(text), sizeof text - std::strlen(text), "; %zu more to come",
                           worker.aside);
     } else if (worker.busy) {
         std::snprintf(text, sizeof text, "Rendering %d \xc3\x97 %d, %.0f s", worker.width, worker.height,
