@@ -217,6 +217,11 @@ std::vector<Option> makeOptions() {
          "Name the cheapest setting whose error of diffuse light is below this: 1% or 0.01", false,
          [](Request& r, const std::string& text) { r.tolerance = parseShare(text); }},
 
+        {"--tolerance", "E", kRender, "Accuracy",
+         "Take the cheapest setting whose error of diffuse light is below this, 1% or 0.01, by the last cutis measure "
+         "of this scene on this device, else by that of the default scene",
+         false, [](Request& r, const std::string& text) { r.tolerance = parseShare(text); }},
+
         {"--error", "E", kReference | kMeasure, "Accuracy",
          "Stop when the standard error of the picture and that of its diffuse light are below this, relative to them: "
          "0.2% or 0.002 (default: 0.5% without --budget, none with it)",
@@ -323,6 +328,12 @@ void checkConflicts(const Request& request) {
         throw UsageError("--env none and --env-intensity exclude each other");
     if (dark && request.environmentRotation)
         throw UsageError("--env none and --env-rotation exclude each other");
+    const RenderSettings &asked = request.settings, free;
+    const bool own = asked.irradianceSize != free.irradianceSize || asked.gaussians != free.gaussians ||
+                     asked.merge != free.merge || asked.chain != free.chain;
+    if (request.tolerance && own)
+        throw UsageError("--tolerance chooses what --irradiance-size, --gaussians, --merge and --chain set: they exclude "
+                         "each other");
     if (request.rig == "none" && !request.lights.empty())
         throw UsageError("--rig none and --light exclude each other");
 }

@@ -34,10 +34,11 @@ struct Request {
     // Of cutis compare: rigs as --rig takes them; both or neither.
     std::optional<std::string> rigA, rigB;
 
+    std::optional<double> tolerance;  // of cutis render and cutis measure: of the diffuse light
+
     // Of cutis measure.
     std::string sweep = "quality";  // a built-in sweep or a file
     int repeats = 3;
-    std::optional<double> tolerance;
     struct {
         int width = 480, height = 270;
     } measureSize;

@@ -8,6 +8,7 @@
 #include "app/output_folder.h"
 #include "app/progress.h"
 #include "app/signals.h"
+#include "app/tolerance.h"
 #include "app/usage_error.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
@@ -141,6 +142,7 @@ int runMeasure(const Request& request) {
         return endingStatus();
     }
     progress.setStage("writing");
+    recordMeasurement(inputs, device.info(), reportJson(rows, info));
     writeReport(folder, rows, info);
     for (const std::string& paragraph : reportText(rows, info)) std::printf("%s\n", paragraph.c_str());
     if (const std::uint64_t messages = gpu::validationMessages()) {

@@ -8,6 +8,7 @@
 #include "app/output_files.h"
 #include "app/progress.h"
 #include "app/stats_json.h"
+#include "app/tolerance.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
 #include "renderer/gpu/device.h"
@@ -43,16 +44,19 @@ int runRender(const Request& request) {
     gpu::DeviceOptions deviceOptions;
     deviceOptions.select = request.device;
     gpu::Device device(deviceOptions);
-    const Inputs inputs = loading.get();
+    Inputs inputs = loading.get();
     const double loadMs = millisecondsSince(start);
     checkInputsSurvive(inputs, outputs);
+
+    RenderSettings settings = request.settings;
+    if (request.tolerance) applyTolerance(*request.tolerance, inputs, device.info(), settings);
 
     progress.setStage("rendering");
     const RenderInput input{.scene = &inputs.scene,
                             .rig = inputs.rig,
                             .environment = inputs.environment ? &*inputs.environment : nullptr,
                             .camera = inputs.camera};
-    RenderResult result = renderPicture(device, input, request.settings);
+    RenderResult result = renderPicture(device, input, settings);
     result.stats.loadMs = loadMs;
 
     progress.setStage("writing");

@@ -58,16 +58,7 @@ void addLight(Hash& hash, const Light& l) {
              l.radius, l.size, l.range, l.shadow, l.position, l.direction);
 }
 
-}  // namespace
-
-std::uint64_t contentKey(const Input& input, const Settings& settings, const PlacedScene& placed) {
-    Hash hash;
-    const bool irradiance =
-        std::find(settings.aovs.begin(), settings.aovs.end(), "irradiance") != settings.aovs.end();
-    hash.add(kEstimatorVersion, settings.width, settings.height, settings.gaussians, settings.seed,
-             irradiance);
-    const Camera& c = input.camera;
-    hash.add(c.orthographic, c.yfov, c.xmag, c.ymag, c.znear, c.zfar, c.world, placed.origin);
+void addMeshes(Hash& hash, const PlacedScene& placed) {
     for (const PlacedMesh& mesh : placed.meshes) {
         hash.add(mesh.character, mesh.skin, mesh.primitive->material);
         hash.add(mesh.positions);
@@ -78,6 +69,10 @@ std::uint64_t contentKey(const Input& input, const Settings& settings, const Pla
         hash.add(mesh.primitive->uv1);
         hash.add(mesh.primitive->colors);
     }
+}
+
+// Materials, textures, lights and the environment.
+void addLook(Hash& hash, const Input& input) {
     for (const Material& material : input.scene->materials) addMaterial(hash, *input.scene, material);
     for (const Image& image : input.scene->images) {
         hash.add(image.width, image.height, image.format);
@@ -91,6 +86,27 @@ std::uint64_t contentKey(const Input& input, const Settings& settings, const Pla
         hash.add(e.intensity, e.rotation, input.environment->width, input.environment->height);
         hash.add(input.environment->radiance);
     }
+}
+
+}  // namespace
+
+std::uint64_t subjectKey(const Input& input) {
+    Hash hash;
+    addMeshes(hash, placeScene(*input.scene));
+    addLook(hash, input);
+    return hash.value();
+}
+
+std::uint64_t contentKey(const Input& input, const Settings& settings, const PlacedScene& placed) {
+    Hash hash;
+    const bool irradiance =
+        std::find(settings.aovs.begin(), settings.aovs.end(), "irradiance") != settings.aovs.end();
+    hash.add(kEstimatorVersion, settings.width, settings.height, settings.gaussians, settings.seed,
+             irradiance);
+    const Camera& c = input.camera;
+    hash.add(c.orthographic, c.yfov, c.xmag, c.ymag, c.znear, c.zfar, c.world, placed.origin);
+    addMeshes(hash, placed);
+    addLook(hash, input);
     return hash.value();
 }
 

@@ -70,6 +70,9 @@ struct Result {
     bool interrupted = false;  // Hooks::stop ended it: there is no picture, but a saved state
 };
 
+// A hash of the scene and its light, whatever the camera, the size and the settings.
+std::uint64_t subjectKey(const Input& input);
+
 // Evaluates the picture. The same input, size and seed give the same bits for the same number of passes, on
 // any number of threads and however often the work was interrupted. Throws Error.
 Result evaluate(const Input& input, const Settings& settings, const Hooks& hooks = {});

@@ -57,9 +57,9 @@ TEST(Help, WinsOverOtherMistakes) {
 
 TEST(Help, RenderHasEveryOption) {
     const std::set<std::string> expected = {
-        "--rig",   "--light", "--env",      "--env-intensity",   "--env-rotation", "--camera", "--size",
-        "--skin",  "--merge", "--chain",    "--irradiance-size", "--gaussians",    "--device", "--aov",
-        "--stats", "--seed",  "--exposure", "--no-prune",        "--output",       "--help"};
+        "--rig",  "--light", "--env",       "--env-intensity", "--env-rotation",    "--camera",    "--size",
+        "--skin", "--merge", "--tolerance", "--chain",         "--irradiance-size", "--gaussians", "--device",
+        "--aov",  "--stats", "--seed",      "--exposure",      "--no-prune",        "--output",    "--help"};
     EXPECT_EQ(optionsIn(runCutis({"render", "--help"}).out), expected);
 }
 

@@ -74,5 +74,27 @@ TEST_F(Report, MeasureHasARowForEverySettingAndGoesOnAfterAFailure) {
         EXPECT_TRUE(std::filesystem::exists(out_ + "/" + name)) << name;
 }
 
+// What measure found of a scene is what render goes by; of another scene it knows what holds for the default one.
+TEST_F(Report, RenderTakesTheCheapestSettingThatWasMeasuredWithinATolerance) {
+    const std::string sweep = folder_ / "sweep.json", picture = folder_ / "picture.exr", stats = folder_ / "stats.json";
+    writeText(sweep, R"({"cutis_sweep":1,"settings":[{"name":"two","gaussians":2,"irradiance_size":128}]})");
+    const auto renderWithin = [&](const char* tolerance, const char* rig) {
+        return run("render", {"--tolerance", tolerance, "--rig", rig, "--stats", stats, "-o", picture});
+    };
+    const ProcessResult measured =
+        run("measure", {"--sweep", sweep, "--rig", "loop", "--budget", "1s", "--repeats", "1", "-o", out_});
+    ASSERT_EQ(measured.status, 0) << measured.err;
+    const ProcessResult rendered = renderWithin("100%", "loop");
+    EXPECT_EQ(rendered.status, 0) << rendered.err;
+    EXPECT_NE(rendered.err.find("taking 'two', measured on this scene at 64x36"), std::string::npos) << rendered.err;
+    EXPECT_EQ(Json::parse(readText(stats))["gaussians"], 2);
+    EXPECT_EQ(Json::parse(readText(stats))["atlas"]["width"], 128);
+    expectFailure(renderWithin("0.001%", "loop"), 1, {"no setting is within 0.001 %", "'two'", "--tolerance"});
+    // Another light is another measurement.
+    const ProcessResult other = renderWithin("100%", "split");
+    EXPECT_EQ(other.status, 0) << other.err;
+    EXPECT_NE(other.err.find("measured on the default scene"), std::string::npos) << other.err;
+}
+
 }  // namespace
 }  // namespace cutis::test

@@ -87,6 +87,8 @@ TEST(Usage, WrongOptionsOfRender) {
         {{"--irradiance-size", "1000000"}, {"--irradiance-size"}},
         {{"--merge", "max"}, {"--merge is 'max'"}},
         {{"--chain", "printed"}, {"--chain is 'printed'"}},
+        {{"--tolerance", "0"}, {"--tolerance is '0'"}},
+        {{"--tolerance", "1%", "--gaussians", "3"}, {"--tolerance", "exclude each other"}},
         {{"--seed", "-1"}, {"--seed is '-1'"}},
         {{"--seed", "4294967296"}, {"--seed"}},
         {{"--aov", "normals"}, {"--aov", "'normals'", "did you mean 'normal'?"}},
