@@ -30,6 +30,7 @@ std::span<const Command> commands();
 
 int runView(const Request& request);
 int runRender(const Request& request);
+int runPlan(const Request& request);
 int runReference(const Request& request);
 int runCompare(const Request& request);
 int runMeasure(const Request& request);

@@ -28,6 +28,10 @@ std::span<const Command> commands() {
         {"", "render", "SCENE", 1, 1, kRender, true, "One picture of a glTF scene",
          "SCENE is a .gltf or .glb file, or 'default' for the scene of real people that set-up installs.",
          runRender},
+        {"", "plan", "SCENE", 1, 1, kPlan, false, "What a picture would run, what it leaves out and why",
+         "Lists each row of the pass table for the picture that cutis render would make: on or off, why, and the GPU "
+         "memory that it writes or works in. Nothing is drawn unless --measure asks for times.",
+         runPlan},
         {"", "reference", "SCENE", 1, 1, kReference, true, "The same picture evaluated exactly, on the CPU",
          "Takes what cutis render takes; what only concerns the GPU has no effect. It works until the standard error is "
          "below --error or --budget is spent, and prints the error that it reached. Interrupted (Ctrl-C) or asked again "

@@ -19,7 +19,7 @@ constexpr int kMinAtlas = 8, kMaxAtlas = 16384;  // texels
 constexpr int kMaxGaussians = 32;
 constexpr double kMaxSeconds = 3.6e6;
 constexpr unsigned kPicture = kRender | kReference;  // the same picture in two ways: the same options
-constexpr unsigned kView = kPicture | kCompare | kMeasure | kViewer;  // whatever shows a scene
+constexpr unsigned kView = kPicture | kPlan | kCompare | kMeasure | kViewer;  // whatever shows a scene
 constexpr int kMaxRepeats = 1000;
 constexpr double kMinUiScale = 0.5, kMaxUiScale = 4;
 constexpr double kMaxExposure = 64, kMaxIntensity = 1e12, kMaxTurn = 36000;
@@ -191,7 +191,11 @@ std::vector<Option> makeOptions() {
         {"-o, --output", "DIR", kCompare | kMeasure, output,
          "The folder of the report: a new one, or one that holds an earlier report", false,
          [](Request& r, const std::string& text) { r.outputs.push_back(parseText(text)); }},
-        {"--size", "WxH", kPicture | kCompare, output, "Pixels of the picture (default: 1280x720)", false, parseSize},
+        {"--size", "WxH", kPicture | kPlan | kCompare, output, "Pixels of the picture (default: 1280x720)", false, parseSize},
+        {"--json", "", kPlan, output, "As JSON: the keys of --stats of cutis render, then all rows", false,
+         [](Request& r, const std::string&) { r.json = true; }},
+        {"--measure", "", kPlan, output, "Draw the picture a few times and give the median time of each row", false,
+         [](Request& r, const std::string&) { r.measure = true; }},
         {"--size", "WxH", kViewer, "Window", "Pixels of the window (default: 1280x720)", false, parseSize},
         {"--ui-scale", "X", kViewer, "Window",
          "Size of text and controls: 1 is 100 %, 2 is 200 % (default: what the desktop asks for)", false,
@@ -265,17 +269,17 @@ std::vector<Option> makeOptions() {
          "named like "
          "skin, head, face or body)",
          false, [](Request& r, const std::string& text) { r.skin = parseText(text); }},
-        {"--irradiance-size", "N", kPicture | kCompare | kViewer, quality,
+        {"--irradiance-size", "N", kPicture | kPlan | kCompare | kViewer, quality,
          "The irradiance atlas is exactly N×N texels (default: chosen from the picture)", false,
          [](Request& r, const std::string& text) {
              r.settings.irradianceSize = static_cast<int>(parseInteger(text, kMinAtlas, kMaxAtlas));
          }},
-        {"--gaussians", "K", kPicture | kCompare | kViewer, quality,
+        {"--gaussians", "K", kPicture | kPlan | kCompare | kViewer, quality,
          "Reduce each profile to K Gaussians, faster and less exact (default: all)", false,
          [](Request& r, const std::string& text) {
              r.settings.gaussians = static_cast<int>(parseInteger(text, 1, kMaxGaussians));
          }},
-        {"--merge", "NAME", kPicture | kCompare | kViewer, quality,
+        {"--merge", "NAME", kPicture | kPlan | kCompare | kViewer, quality,
          "How the thicknesses that several lights see become one: min, the smallest, or opposite, the distance "
          "of the other side of the skin, whatever the lights (default: min)",
          false,
@@ -283,7 +287,7 @@ std::vector<Option> makeOptions() {
              if (text != "min" && text != "opposite") refuse(text, "min or opposite");
              r.settings.merge = text == "min" ? Merge::min : Merge::opposite;
          }},
-        {"--chain", "NAME", kPicture | kCompare | kViewer, quality,
+        {"--chain", "NAME", kPicture | kPlan | kCompare | kViewer, quality,
          "How light is diffused: exact, or published, the chain of blurs as GPU Gems 3 prints it, to compare with "
          "(default: exact)",
          false,
@@ -297,7 +301,7 @@ std::vector<Option> makeOptions() {
              r.settings.seed =
                  static_cast<std::uint32_t>(parseInteger(text, 0, std::numeric_limits<std::uint32_t>::max()));
          }},
-        {"--no-prune", "", kPicture, quality,
+        {"--no-prune", "", kPicture | kPlan, quality,
          "Run also what the scene does not need, on neutral inputs, to measure what leaving it out saves",
          false, [](Request& r, const std::string&) { r.settings.prune = false; }},
 

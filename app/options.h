@@ -31,6 +31,9 @@ struct Request {
 
     double uiScale = 0;  // of cutis view: size of its interface; 0: as the desktop asks
 
+    // Of cutis plan.
+    bool json = false, measure = false;
+
     // Of cutis compare: rigs as --rig takes them; both or neither.
     std::optional<std::string> rigA, rigB;
 
@@ -50,7 +53,7 @@ struct Request {
 };
 
 // Commands that take an option, as a set of bits.
-enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4, kReference = 8, kCompare = 16, kMeasure = 32, kViewer = 64 };
+enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4, kReference = 8, kCompare = 16, kMeasure = 32, kViewer = 64, kPlan = 128 };
 
 struct Option {
     std::string_view names;    // "-o, --output", the long one last

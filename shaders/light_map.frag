@@ -11,6 +11,7 @@ layout(push_constant, scalar) uniform Push {
     uint view;
     float texelsToUnit;
     uint material;
+    uint seed;
 } push;
 
 layout(binding = 4, scalar) readonly buffer MaterialBuffer { Material materials[]; };
@@ -33,7 +34,7 @@ void main() {
 #ifdef MASKED
     // The pattern differs from view to view as well: the samples of an area light average it further.
     float threshold = (materials[push.material].flags & MATERIAL_BLEND) != 0u
-                          ? coverageThreshold(uvec2(gl_FragCoord.xy), hash(push.view) ^ inSurface)
+                          ? coverageThreshold(uvec2(gl_FragCoord.xy), push.seed ^ inSurface)
                           : materials[push.material].alphaCutoff;
     if (surfaceAlpha(push.material, inUv, inAlpha) < threshold) discard;
 #endif

@@ -22,6 +22,7 @@ layout(push_constant, scalar) uniform Push {
     uint view;
     float texelsToUnit;  // 1 / atlas size
     uint material;
+    uint seed;  // of the view: the same wherever it stands in the buffer
 } push;
 
 void main() {

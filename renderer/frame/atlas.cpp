@@ -237,6 +237,7 @@ void computeMetric(const Scene& scene, const Geometry& geometry, const std::vect
     std::vector<std::pair<double, double>> texelSizes;  // size in mm, texels of that size
     texelSizes.reserve(geometry.skinTriangleCount);
     std::vector<std::vector<std::pair<double, double>>> longestSides(atlas.charts.size());  // the same of each chart
+    std::vector<std::vector<std::pair<double, double>>> shortestSides(atlas.charts.size());
     for (std::size_t t = 0; t < geometry.skinTriangleCount; ++t) {
         const std::uint32_t* v = &geometry.indices[t * 3];
         const double mmPerUnit = mmPerUnitOf(scene, geometry.draws[geometry.triangleDraws[t]].material);
@@ -252,11 +253,14 @@ void computeMetric(const Scene& scene, const Geometry& geometry, const std::vect
         const double texels = 0.5 * std::abs(det);
         for (int i = 0; i < 3; ++i) sums[weld[v[i]]] += glm::dvec4(g * texels, texels);
         texelSizes.emplace_back(std::pow(std::max(g.x * g.z - g.y * g.y, 0.0), 0.25), texels);
-        const double longest = 0.5 * (g.x + g.z) + std::hypot(0.5 * (g.x - g.z), g.y);  // eigenvalue
-        longestSides[geometry.drawInfos[geometry.triangleDraws[t]].chart].emplace_back(std::sqrt(longest), texels);
+        const double mean = 0.5 * (g.x + g.z), apart = std::hypot(0.5 * (g.x - g.z), g.y);  // of the eigenvalues
+        const std::uint32_t chart = geometry.drawInfos[geometry.triangleDraws[t]].chart;
+        longestSides[chart].emplace_back(std::sqrt(mean + apart), texels);
+        shortestSides[chart].emplace_back(std::sqrt(std::max(mean - apart, 0.0)), texels);
     }
     for (std::size_t c = 0; c < atlas.charts.size(); ++c) {
         atlas.charts[c].coarsestMm = weightedQuantile(longestSides[c], 0.8);
+        atlas.charts[c].finestMm = weightedQuantile(shortestSides[c], 0.02);
     }
     for (std::size_t v = 0; v < weld.size(); ++v) {
         const glm::dvec4 sum = sums[weld[v]];

@@ -16,6 +16,7 @@ struct AtlasChart {
     glm::dvec2 sizeMm{0};  // of the rectangle on the surface, on average
     glm::uvec4 rect{0};    // x, y, width, height in texels
     double coarsestMm = 0;  // longest side of a texel, but for the largest fifth of them
+    double finestMm = 0;    // shortest side of a texel, but for the smallest fiftieth of them
 };
 
 struct Atlas {

@@ -39,7 +39,8 @@ struct FrameContext {
 
     // Known before anything is planned
     Geometry geometry;
-    std::vector<Bounds> groups;  // of receivers
+    std::vector<Bounds> groups;    // of receivers
+    std::vector<bool> groupsSeen;  // in view, or all where every view counts
     shared::ViewCamera camera{};
     Detail detail;
     Lighting lighting;

@@ -28,7 +28,7 @@ std::uint64_t hashMaterials(const Scene& scene) {
 std::uint64_t hashTextures(const FrameContext& frame) {
     ContentHash hash;
     hash.add(frame.input->scene, frame.input->sceneRevision);
-    for (const TextureUse use : textureUses(*frame.input->scene, frame.geometry)) hash.add(use);
+    for (const TextureUse use : textureUses(*frame.input->scene, frame.geometry, frame.settings->prune)) hash.add(use);
     return hash.value();
 }
 
@@ -45,7 +45,7 @@ std::uint64_t hashProfiles(const FrameContext& frame) {
 
 // On the layout that is there. Where there is none yet, or it is to be made anew, nothing is kept that this could save.
 std::uint64_t hashLevels(const FrameContext& frame) {
-    const std::vector<ChartRange> charts = chartRanges(*frame.input->scene, frame.atlas, frame.settings->gaussians);
+    const std::vector<ChartRange> charts = chartRanges(*frame.input->scene, frame.atlas, *frame.settings);
     ContentHash hash;
     for (const ChartRange& chart : charts) hash.add(chart.profile.gaussians.size());
     return hash.add(levelShifts(charts, reducesLevels(*frame.settings))).value();
@@ -116,6 +116,11 @@ InputHashes hashInputs(const FrameContext& frame) {
     hashLights(frame.lighting.samples, places, power);
     set(Input::lightPlaces, places.value());
     set(Input::lightPower, power.value());
+    ContentHash needed, seen;
+    for (const bool map : frame.lighting.mapsNeeded) needed.add(map);
+    for (const bool group : frame.groupsSeen) seen.add(group);
+    set(Input::lightMapsNeeded, needed.value());
+    set(Input::groupsSeen, seen.value());
     set(Input::environment, hashEnvironment(frame));
     set(Input::environmentRotation, ContentHash().add(environment.rotation).value());
     set(Input::environmentPower, ContentHash().add(environment.intensity).value());

@@ -4,6 +4,7 @@
 // signatures of the rows that wrote what it reads. It runs when that differs from the signature of what it wrote last.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -23,7 +24,11 @@ struct Changes {
     std::set<Input> inputs;
     std::set<Resource> resources;
     bool needs = false;
-    bool only(Input input) const { return !first && !needs && resources.empty() && inputs == std::set{input}; }
+    // Nothing but some of these.
+    bool only(const std::set<Input>& these) const {
+        return !first && !needs && resources.empty() &&
+               std::includes(these.begin(), these.end(), inputs.begin(), inputs.end());
+    }
 };
 
 struct RowDecision {

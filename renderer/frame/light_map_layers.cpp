@@ -15,7 +15,8 @@ std::uint64_t keyOf(const shared::LightView& view) {
 
 }  // namespace
 
-LightMapLayers::Assignment LightMapLayers::assign(std::vector<shared::LightView>& views) {
+LightMapLayers::Assignment LightMapLayers::assign(std::vector<shared::LightView>& views,
+                                                  const std::vector<bool>& needed) {
     constexpr std::uint32_t kNone = 0xffffffffu;
     Assignment result;
     std::map<std::uint64_t, std::uint32_t> known;
@@ -23,16 +24,19 @@ LightMapLayers::Assignment LightMapLayers::assign(std::vector<shared::LightView>
         if (held_[layer]) known.emplace(keyOf(*held_[layer]), layer);
     }
     std::vector<bool> used(held_.size(), false);
-    std::size_t missing = 0;
-    for (shared::LightView& view : views) {
-        const auto found = known.find(keyOf(view));
-        view.layer = found == known.end() ? kNone : found->second;
-        if (view.layer == kNone) ++missing;
-        else used[view.layer] = true;
+    std::size_t missing = 0, wanted = 1;  // one layer at the least, for views to point at
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (!needed[v]) continue;
+        ++wanted;
+        const auto found = known.find(keyOf(views[v]));
+        views[v].layer = found == known.end() ? kNone : found->second;
+        if (found == known.end()) ++missing;
+        else used[views[v].layer] = true;
     }
+    if (wanted > 1) --wanted;
     const auto free = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
     // Layers that lights left are kept for those that come, up to as many as are in use.
-    result.newImage = missing > free || held_.size() > 2 * views.size();
+    result.newImage = missing > free || held_.size() > 2 * wanted || held_.empty();
     if (result.newImage) {
         std::vector<std::optional<shared::LightView>> moved;
         std::vector<std::uint32_t> place(held_.size(), kNone);
@@ -42,11 +46,11 @@ LightMapLayers::Assignment LightMapLayers::assign(std::vector<shared::LightView>
             result.moves.push_back({layer, place[layer]});
             moved.push_back(held_[layer]);
         }
-        for (shared::LightView& view : views) {
-            if (view.layer != kNone) view.layer = place[view.layer];
+        for (std::size_t v = 0; v < views.size(); ++v) {
+            if (needed[v] && views[v].layer != kNone) views[v].layer = place[views[v].layer];
         }
         used.assign(moved.size(), true);
-        moved.resize(moved.size() + missing);
+        moved.resize(std::max<std::size_t>(moved.size() + missing, 1));
         used.resize(moved.size(), false);
         held_ = std::move(moved);
     }
@@ -58,6 +62,7 @@ LightMapLayers::Assignment LightMapLayers::assign(std::vector<shared::LightView>
     empty.insert(empty.end(), stale.begin(), stale.end());
     auto next = empty.begin();
     for (std::uint32_t v = 0; v < views.size(); ++v) {
+        if (!needed[v]) views[v].layer = 0;
         if (views[v].layer != kNone) continue;
         views[v].layer = *next++;
         held_[views[v].layer] = views[v];

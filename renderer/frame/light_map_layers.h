@@ -20,8 +20,8 @@ class LightMapLayers {
         std::vector<Move> moves;          // what to copy into it
         std::vector<std::uint32_t> draw;  // views whose layer does not hold them yet
     };
-    // Fills LightView::layer of every view.
-    Assignment assign(std::vector<shared::LightView>& views);
+    // Fills LightView::layer of every view. Those that are not needed get any layer, and nothing is drawn for them.
+    Assignment assign(std::vector<shared::LightView>& views, const std::vector<bool>& needed);
     std::uint32_t layers() const { return static_cast<std::uint32_t>(held_.size()); }
     void forget() { held_.clear(); }
 

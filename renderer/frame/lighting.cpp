@@ -1,8 +1,11 @@
 #include "renderer/frame/lighting.h"
 
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "renderer/frame/frame.h"
+#include "renderer/frame/light_reach.h"
 #include "renderer/gpu/device.h"
 #include "renderer/scene/light_samples.h"
 
@@ -30,6 +33,46 @@ void addToRuns(const shared::LightSampleData& sample, std::vector<LightRun>& run
     ++runs.back().sampleCount;
 }
 
+// Samples that reach nothing light nothing.
+void leaveOutDarkSamples(FrameContext& frame) {
+    Lighting& lighting = frame.lighting;
+    std::map<int, const char*> dark;
+    std::set<int> lit;
+    std::erase_if(lighting.samples, [&](const LightSample& sample) {
+        const char* why = "nothing is there";
+        for (const Bounds& group : frame.groups) {
+            why = whyDark(sample, group);
+            if (!why) break;
+        }
+        if (why) dark.emplace(sample.light, why);
+        else lit.insert(sample.light);
+        return why != nullptr;
+    });
+    for (const auto& [light, why] : dark) {
+        if (!lit.contains(light)) lighting.leftOut.push_back({"light " + frame.input->rig.lights[light].name, why});
+    }
+}
+
+// Without pruning, what is missing is there and black.
+void addBlackLight(Lighting& lighting) {
+    static const Environment kBlack{"black", 2, 1, std::vector<glm::vec3>(2, glm::vec3(0))};
+    if (!lighting.environment) lighting.environment = &kBlack;
+    if (lighting.samples.empty()) lighting.samples.push_back({.light = 0, .directional = true});
+}
+
+// A map is looked up where its sample reaches a group of receivers of which something is seen, or lit.
+void findNeededMaps(FrameContext& frame) {
+    Lighting& lighting = frame.lighting;
+    lighting.mapsNeeded.clear();
+    for (const LightSample& sample : lighting.samples) {
+        if (!sample.shadow) continue;
+        for (std::size_t g = 0; g < frame.groups.size(); ++g) {
+            const bool needed = frame.groupsSeen[g] && mayReach(sample, frame.groups[g]);
+            lighting.mapsNeeded.push_back(needed || !frame.settings->prune);
+        }
+    }
+}
+
 }  // namespace
 
 void readLighting(FrameContext& frame) {
@@ -37,6 +80,8 @@ void readLighting(FrameContext& frame) {
     const EnvironmentSettings& settings = input.rig.environment;
     Lighting& lighting = frame.lighting;
     lighting.samples = sampleLights(input.rig);
+    lighting.leftOut.clear();
+    if (frame.settings->prune) leaveOutDarkSamples(frame);
     lighting.environment = nullptr;
     if (input.environment && settings.enabled && settings.intensity > 0) {
         lighting.environment = input.environment;
@@ -50,10 +95,8 @@ void readLighting(FrameContext& frame) {
             }
         }
     }
-    if (frame.settings->prune) return;
-    static const Environment kBlack{"black", 2, 1, std::vector<glm::vec3>(2, glm::vec3(0))};
-    if (!lighting.environment) lighting.environment = &kBlack;
-    if (lighting.samples.empty()) lighting.samples.push_back({.light = 0, .directional = true});
+    if (!frame.settings->prune) addBlackLight(lighting);
+    findNeededMaps(frame);
 }
 
 void uploadLightSamples(FrameContext& frame) {

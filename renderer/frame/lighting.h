@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "renderer/frame/renderer.h"
 #include "renderer/scene/environment_samples.h"
 #include "renderer/scene/light.h"
 
@@ -14,6 +15,8 @@ struct FrameContext;
 struct Lighting {
     std::vector<LightSample> samples;          // of the rig, then those drawn from the environment
     const Environment* environment = nullptr;  // what is left of it; nullptr: none
+    std::vector<LeftOut> leftOut;              // lights, and why
+    std::vector<bool> mapsNeeded;              // a shadowed sample and group of receivers
 
     // The environment as it was split last, neither turned nor dimmed.
     EnvironmentSplit split;

@@ -68,14 +68,14 @@ void lightMapsRow(FrameContext& frame) {
         if (sample.shadow) shadowed.push_back(sample);
     }
     LightMaps& maps = frame.lights;
-    if (!frame.changes->only(Input::lightPlaces)) {
+    if (!frame.changes->only({Input::lightPlaces, Input::lightMapsNeeded})) {
         frame.lightMapLayers.forget();
         maps.depth = {}, maps.entry = {};
     }
     maps.size = frame.detail.lightMapSize;
     maps.viewList =
         computeLightViews(shadowed, frame.groups, frame.geometry.bounds, frame.geometry.origin, maps.size);
-    const LightMapLayers::Assignment assigned = frame.lightMapLayers.assign(maps.viewList);
+    const LightMapLayers::Assignment assigned = frame.lightMapLayers.assign(maps.viewList, frame.lighting.mapsNeeded);
     maps.views = gpu::Buffer(*frame.device, {.name = "light views", .bytes = maps.viewList.size() * sizeof(shared::LightView)});
     frame.commands->upload(maps.views, maps.viewList);
     if (assigned.newImage) {
@@ -92,6 +92,11 @@ void lightMapsRow(FrameContext& frame) {
         if (frame.needs[Need::translucency]) renew(maps.entry, "light entry points", VK_FORMAT_R32_UINT);
     }
     maps.drawn = static_cast<int>(assigned.draw.size());
+    if (assigned.newImage && assigned.moves.empty() && assigned.draw.empty()) {
+        // Nothing looks any map up, but the images are bound.
+        frame.commands->clear(maps.depth, gpu::ClearValue::depth(1));
+        if (maps.entry) frame.commands->clear(maps.entry, gpu::ClearValue::integers(0xffffffffu));
+    }
     for (std::size_t i = 0; i < assigned.draw.size();) {
         const std::uint32_t first = assigned.draw[i];
         std::uint32_t count = 0;
@@ -152,6 +157,7 @@ void environmentVisibilityRow(FrameContext& frame) {
                                 .draws = frame.scene.draws,
                                 .vertexCounts = vertexCounts,
                                 .groups = frame.groups,
+                                .groupsSeen = frame.groupsSeen,
                                 .casters = frame.geometry.bounds,
                                 .origin = frame.geometry.origin,
                                 .probeCount = frame.geometry.probeCount,
@@ -260,7 +266,7 @@ std::vector<PassRow> rowsBeforeTheFrame() {
          .writes = {R::textures}, .record = uploadSceneTextures, .forget = forgetTextures},
         {.name = "materials", .phase = Phase::upload, .need = Need::always,
          .inputs = {I::materials, I::skinLayer, I::skinMix, I::profiles}, .reads = {R::meshes, R::textures},
-         .readsIf = {R::occluders}, .writes = {R::materials}, .record = uploadMaterials},
+         .readsIf = {R::occluders}, .variants = {Need::transparency, Need::skinSpecular}, .writes = {R::materials}, .record = uploadMaterials},
         {.name = "atlas_layout", .phase = Phase::upload, .need = Need::skin, .inputs = {I::atlasDetail},
          .reads = {R::meshes}, .writes = {R::layout}, .record = uploadLayout, .forget = forgetLayout},
         {.name = "draws", .phase = Phase::upload, .need = Need::always, .inputs = {}, .reads = {R::meshes},
@@ -273,7 +279,7 @@ std::vector<PassRow> rowsBeforeTheFrame() {
         {.name = "lights", .phase = Phase::upload, .need = Need::always, .inputs = {I::lightPlaces, I::lightPower},
          .reads = {R::meshes}, .writes = {R::lights}, .record = uploadLightSamples},
         {.name = "view_buffers", .phase = Phase::upload, .need = Need::always, .inputs = {I::pictureSize, I::materials},
-         .reads = {R::meshes}, .writes = {R::viewBuffers}, .record = makeViewBuffers, .forget = forgetViewBuffers},
+         .reads = {R::meshes}, .variants = {Need::transparency}, .writes = {R::viewBuffers}, .record = makeViewBuffers, .forget = forgetViewBuffers},
         {.name = "picture", .phase = Phase::upload, .need = Need::always, .inputs = {I::pictureSize, I::aovs},
          .reads = {}, .writes = {R::target}, .record = makeTarget, .forget = forgetTarget},
     };
@@ -292,7 +298,7 @@ std::vector<PassRow> rowsOfTheFrame() {
          .reads = {R::surface, R::oppositeVertices}, .readsIf = {R::seen}, .updates = {R::seen},
          .writes = {R::thickness}, .record = oppositeRow, .forget = forgetOpposite},
         {.name = "light_maps", .phase = Phase::frame, .need = Need::shadows,
-         .inputs = {I::lightPlaces, I::lightMapSize, I::materials}, .reads = {R::meshes, R::textures},
+         .inputs = {I::lightPlaces, I::lightMapSize, I::lightMapsNeeded, I::materials}, .reads = {R::meshes, R::textures},
          .readsIf = {R::layout}, .variants = {Need::translucency}, .writes = {R::lightMaps}, .record = lightMapsRow,
          .forget = forgetLightMaps, .amends = true},
         {.name = "thickness", .phase = Phase::frame, .need = Need::translucency,
@@ -302,7 +308,7 @@ std::vector<PassRow> rowsOfTheFrame() {
          .reads = {R::surface, R::seen}, .readsIf = {R::thickness}, .updates = {R::seen}, .writes = {R::tiles},
          .record = neededTexelsRow},
         {.name = "environment_visibility", .phase = Phase::frame, .need = Need::environment,
-         .inputs = {I::environment, I::environmentRotation, I::materials},
+         .inputs = {I::environment, I::environmentRotation, I::groupsSeen, I::materials},
          .reads = {R::meshes, R::draws, R::textures, R::occluders, R::skyClusters},
          .readsIf = {R::surface, R::tiles}, .writes = {R::visibility}, .record = environmentVisibilityRow,
          .forget = forgetVisibility},

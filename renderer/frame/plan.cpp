@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace cutis {
 namespace {
@@ -36,6 +37,9 @@ Needs computeNeeds(const NeedsInput& input) {
         : wholeSkin     ? "the published chain blurs the whole atlas"
                         : "only what the picture shows of the skin is worth lighting");
     set(Need::lights, lights, lights ? count(input.lightSamples, "light sample") : "no lights");
+    set(Need::areaLights, input.areaSamples > 0,
+        input.areaSamples > 0 ? count(input.areaSamples, "sample") + " of area lights"
+                              : "every light is a point or a direction: one sample each, and no penumbras");
     set(Need::shadows, input.shadowedSamples > 0,
         input.shadowedSamples > 0 ? count(input.shadowedSamples, "light sample") + " with shadows"
                                   : "no light casts shadows");
@@ -50,7 +54,27 @@ Needs computeNeeds(const NeedsInput& input) {
     set(Need::oppositeSides, translucent && !fromLights,
         !translucent ? "no skin is translucent" : fromLights ? "thickness comes from light maps" : materials);
     set(Need::environment, input.environment, input.environment ? "an environment lights the scene" : "no environment");
+    set(Need::skinSpecular, skin && lit && (input.shinySkinMaterials > 0 || !input.prune),
+        !skin                          ? "nothing is skin"
+        : !lit                         ? "no light"
+        : input.shinySkinMaterials > 0 ? count(input.shinySkinMaterials, "material") + " of skin that shines"
+                                       : "no skin shines: its specular scale is 0");
+    set(Need::transparency, input.blendedDraws > 0 || !input.prune,
+        input.blendedDraws > 0 ? count(input.blendedDraws, "surface") + " seen through"
+                               : "nothing is seen through: one layer of surfaces");
     return needs;
+}
+
+std::vector<LeftOut> leftOutWithinRows(const Needs& needs) {
+    constexpr std::pair<Need, const char*> kParts[] = {{Need::translucency, "translucency"},
+                                                       {Need::areaLights, "area_lights"},
+                                                       {Need::skinSpecular, "skin_specular"},
+                                                       {Need::transparency, "transparency"}};
+    std::vector<LeftOut> parts;
+    for (const auto& [need, name] : kParts) {
+        if (!needs[need]) parts.push_back({name, needs.why(need)});
+    }
+    return parts;
 }
 
 Plan makePlan(const Needs& needs) {
@@ -58,7 +82,7 @@ Plan makePlan(const Needs& needs) {
     std::set<Resource> written;
     for (const PassRow& row : passTable()) {
         if (!needs[row.need]) {
-            if (row.phase == Phase::frame) plan.leftOut.push_back({row.name, needs.why(row.need)});
+            (row.phase == Phase::frame ? plan.leftOut : plan.leftOutBefore).push_back({row.name, needs.why(row.need)});
             continue;
         }
         for (Resource resource : row.reads) {

@@ -13,9 +13,10 @@ struct FrameContext;
 
 // What a scene may need. A row of the pass table runs when its need is met.
 enum class Need {
-    always, skin, litSkin, hiddenSkin, lights, shadows, translucency, oppositeSides, environment
+    always, skin, litSkin, hiddenSkin, lights, areaLights, shadows, translucency, oppositeSides, environment,
+    skinSpecular, transparency
 };
-inline constexpr int kNeedCount = 9;
+inline constexpr int kNeedCount = 12;
 
 // Each need with the reason for which it is met or not, in words.
 struct Needs {
@@ -27,7 +28,8 @@ struct Needs {
 
 struct NeedsInput {
     int skinDraws = 0, translucentSkinMaterials = 0;
-    int lightSamples = 0, shadowedSamples = 0;
+    int lightSamples = 0, shadowedSamples = 0, areaSamples = 0;
+    int shinySkinMaterials = 0, blendedDraws = 0;
     bool environment = false;
     Merge merge = Merge::min;
     Chain chain = Chain::exact;
@@ -35,6 +37,8 @@ struct NeedsInput {
     bool anyView = false;  // skin is lit for every view, not for one
 };
 Needs computeNeeds(const NeedsInput& input);
+// What rows leave out of themselves: needs that are not met and have no row of their own.
+std::vector<LeftOut> leftOutWithinRows(const Needs& needs);
 
 // What a picture is made of, in parts that change apart from one another. A row names those that it reads, and runs again
 // only when one of them has changed (frame/inputs.h).
@@ -49,6 +53,8 @@ enum class Input {
     chain,                // how light is diffused
     atlasDetail,          // what the layout of the atlas is chosen from
     lightMapSize,
+    lightMapsNeeded,      // which of them anything looks up
+    groupsSeen,           // characters, and the rest, that the picture may show
     lightPlaces,          // of the light samples: all but their light
     lightPower,           // and that
     environment,          // what is left of it once light samples are drawn
@@ -58,7 +64,7 @@ enum class Input {
     pictureSize,
     aovs
 };
-inline constexpr int kInputCount = 18;
+inline constexpr int kInputCount = 20;
 
 // What rows hand to one another.
 enum class Resource {
@@ -93,7 +99,8 @@ const std::vector<PassRow>& passTable();
 struct Plan {
     std::vector<const PassRow*> rows;
     std::vector<std::string> reasons;  // of rows
-    std::vector<LeftOut> leftOut;      // rows of the frame, and why
+    std::vector<LeftOut> leftOut;        // rows of the frame, and why
+    std::vector<LeftOut> leftOutBefore;  // rows before it
 };
 
 // The rows whose need is met. Throws std::logic_error when a row reads what no row above writes.

@@ -9,6 +9,7 @@
 #include "renderer/frame/inputs.h"
 #include "renderer/frame/results.h"
 #include "renderer/gpu/device.h"
+#include "renderer/passes/light_views.h"
 
 namespace cutis {
 namespace {
@@ -28,10 +29,17 @@ NeedsInput factsOf(const FrameContext& frame) {
     facts.anyView = frame.anyView;
     facts.environment = frame.lighting.environment != nullptr;
     facts.lightSamples = static_cast<int>(frame.lighting.samples.size());
-    for (const LightSample& sample : frame.lighting.samples) facts.shadowedSamples += sample.shadow;
-    for (const GeometryDraw& draw : frame.geometry.draws) facts.skinDraws += draw.skin;
+    for (const LightSample& sample : frame.lighting.samples) {
+        facts.shadowedSamples += sample.shadow;
+        facts.areaSamples += sample.radius > 0;
+    }
+    for (const GeometryDraw& draw : frame.geometry.draws) {
+        facts.skinDraws += draw.skin;
+        facts.blendedDraws += scene.materials[draw.material].alphaMode == AlphaMode::blend;
+    }
     for (const int material : skinMaterials(scene, frame.geometry)) {
         facts.translucentSkinMaterials += scene.materials[material].skin->translucency;
+        facts.shinySkinMaterials += scene.materials[material].skin->specular > 0;
     }
     return facts;
 }
@@ -46,9 +54,11 @@ struct Renderer::State {
     SkinFigures skin;
 
     RenderResult render(const RenderInput& input, const RenderSettings& settings);
+    RenderStats plan(const RenderInput& input, const RenderSettings& settings);
 
   private:
     void read();
+    void findGroupsSeen();
     void drop(const Plan& plan);
     bool record(const PassRow& row, const Changes& changes);
     void prepare(const Plan& plan, const std::vector<RowDecision>& decisions);
@@ -71,11 +81,25 @@ void Renderer::State::read() {
     }
     frame.camera = viewCamera(input.camera, frame.geometry.origin, frame.geometry.bounds,
                               {frame.settings->width, frame.settings->height});
+    findGroupsSeen();
     chooseDetail(frame);
     readLighting(frame);
     const NeedsInput facts = factsOf(frame);
     frame.needs = computeNeeds(facts);
-    chooseLightMapSize(frame, facts.shadowedSamples * frame.groups.size());
+    const std::vector<bool>& maps = frame.lighting.mapsNeeded;
+    chooseLightMapSize(frame, static_cast<std::size_t>(std::count(maps.begin(), maps.end(), true)));
+}
+
+void Renderer::State::findGroupsSeen() {
+    const RenderSettings& settings = *frame.settings;
+    const bool oneView = !frame.anyView && settings.prune && settings.chain == Chain::exact;
+    frame.groupsSeen.clear();
+    for (const Bounds& group : frame.groups) {
+        const glm::vec3 low(group.min - frame.geometry.origin), high(group.max - frame.geometry.origin);
+        frame.groupsSeen.push_back(!oneView || reaches(frame.camera.worldToClip, low, high));
+    }
+    const bool any = std::find(frame.groupsSeen.begin(), frame.groupsSeen.end(), true) != frame.groupsSeen.end();
+    if (!any) frame.groupsSeen.assign(frame.groups.size(), true);  // an empty picture: nothing to gain
 }
 
 // Frees what the plan does not write any more.
@@ -191,18 +215,46 @@ RenderResult Renderer::State::render(const RenderInput& input, const RenderSetti
     return result;
 }
 
+RenderStats Renderer::State::plan(const RenderInput& input, const RenderSettings& settings) {
+    frame.device->resetPeak();
+    frame.input = &input;
+    frame.settings = &settings;
+    read();
+    const Plan plan = makePlan(frame.needs);
+    const std::vector<RowDecision> decisions(plan.rows.size(), RowDecision{true, {}});
+    prepare(plan, decisions);
+    RenderStats stats;
+    gpu::Commands commands = frame.device->begin();  // never submitted
+    frame.commands = &commands;
+    for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+        const PassRow& row = *plan.rows[i];
+        if (row.phase == Phase::frame) record(row, decisions[i].changes);
+        (row.phase == Phase::frame ? stats.passes : stats.prepared).push_back(statsOf(row, plan.reasons[i], true));
+    }
+    fillStats(frame, plan, stats);
+    return stats;
+}
+
 Renderer::Renderer(gpu::Device& device, Views views) : device_(device), views_(views) {}
 
 Renderer::~Renderer() = default;
 
 void Renderer::forget() { state_ = nullptr; }
 
+std::unique_ptr<Renderer::State> Renderer::makeState() const {
+    auto state = std::make_unique<State>();
+    state->frame.device = &device_;
+    state->frame.anyView = views_ == Views::any;
+    return state;
+}
+
+RenderStats Renderer::plan(const RenderInput& input, const RenderSettings& settings) {
+    forget();
+    return makeState()->plan(input, settings);
+}
+
 RenderResult Renderer::render(const RenderInput& input, const RenderSettings& settings) {
-    if (!state_) {
-        state_ = std::make_unique<State>();
-        state_->frame.device = &device_;
-        state_->frame.anyView = views_ == Views::any;
-    }
+    if (!state_) state_ = makeState();
     try {
         return state_->render(input, settings);
     } catch (...) {

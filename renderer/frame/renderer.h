@@ -74,6 +74,7 @@ struct RenderStats {
     std::vector<PassStats> passes;
     std::vector<PassStats> prepared;  // what was uploaded and filtered before the frame, or was there already
     std::vector<LeftOut> leftOut;
+    std::vector<LeftOut> notPrepared;  // the same of `prepared`
     int atlasWidth = 0, atlasHeight = 0;
     std::uint64_t atlasTexelsCovered = 0;  // that hold skin
     std::uint64_t atlasTexelsLit = 0;      // of them; the others are not seen, nor is their light
@@ -107,11 +108,14 @@ class Renderer {
 
     // Scene and environment are used during the call alone. Throws Error.
     RenderResult render(const RenderInput& input, const RenderSettings& settings);
+    // What `render` would run, with its memory, but for the figures that only running gives. Frees all that is kept.
+    RenderStats plan(const RenderInput& input, const RenderSettings& settings);
     // Frees all that is kept.
     void forget();
 
   private:
     struct State;
+    std::unique_ptr<State> makeState() const;
     gpu::Device& device_;
     Views views_;
     std::unique_ptr<State> state_;

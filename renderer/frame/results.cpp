@@ -45,7 +45,7 @@ void moveToWorld(RenderResult& result, const glm::dvec3& origin) {
 const char* nameOf(Input input) {
     constexpr const char* kNames[kInputCount] = {
         "geometry",      "textures",    "materials",          "skin's specular layer", "albedo mix",           "profiles",
-        "levels", "chain", "atlas size",  "light map size",     "places of lights",      "intensities of lights", "environment",
+        "levels", "chain", "atlas size",  "light map size", "needed light maps", "characters in view",     "places of lights",      "intensities of lights", "environment",
         "rotation of the environment", "intensity of the environment", "camera", "picture size", "data channels"};
     return kNames[static_cast<int>(input)];
 }
@@ -107,12 +107,44 @@ void takePictures(const FrameContext& frame, const Readbacks& readbacks, SkinFig
     moveToWorld(result, frame.geometry.origin);
 }
 
+namespace {
+
+std::string countOf(std::size_t some, std::size_t all) { return std::to_string(some) + " of " + std::to_string(all); }
+
+// What is left out of rows that run, in words.
+void addParts(const FrameContext& frame, std::vector<LeftOut>& list) {
+    const Scene& scene = *frame.input->scene;
+    for (const LeftOut& part : leftOutWithinRows(frame.needs)) list.push_back(part);
+    list.insert(list.end(), frame.lighting.leftOut.begin(), frame.lighting.leftOut.end());
+    for (std::size_t c = 0; c < scene.characters.size(); ++c) {
+        if (frame.groupsSeen[c]) continue;
+        list.push_back({"character " + scene.characters[c].name,
+                        "out of view: it has no light maps and its skin is not lit; it casts shadows"});
+    }
+    const std::vector<bool>& maps = frame.lighting.mapsNeeded;
+    const auto unneeded = static_cast<std::size_t>(std::count(maps.begin(), maps.end(), false));
+    if (unneeded > 0) list.push_back({"light maps", countOf(unneeded, maps.size()) + " reach nothing that is seen"});
+    const std::vector<TextureUse> uses = textureUses(scene, frame.geometry, frame.settings->prune);
+    const auto unused = static_cast<std::size_t>(std::count(uses.begin(), uses.end(), TextureUse::none));
+    if (unused > 0) list.push_back({"textures", countOf(unused, uses.size()) + " are never sampled"});
+    std::size_t gaussians = 0;
+    for (const int material : skinMaterials(scene, frame.geometry)) {
+        gaussians = std::max(gaussians, scene.materials[material].skin->profile.gaussians.size());
+    }
+    const auto kept = static_cast<std::size_t>(frame.scene.gaussians);
+    if (!frame.atlas.charts.empty() && kept < gaussians && frame.settings->gaussians == 0) {
+        list.push_back({"gaussians", countOf(gaussians - kept, gaussians) +
+                                         " have no weight, or blur less than a lookup between texels does"});
+    }
+}
+
+}  // namespace
+
 void fillStats(const FrameContext& frame, const Plan& plan, RenderStats& stats) {
     stats.device = frame.device->info().name;
     stats.leftOut = plan.leftOut;
-    if (!frame.needs[Need::translucency]) {
-        stats.leftOut.push_back({"translucency", frame.needs.why(Need::translucency)});
-    }
+    stats.notPrepared = plan.leftOutBefore;
+    addParts(frame, stats.leftOut);
     stats.atlasWidth = stats.atlasHeight = frame.atlas.size;
     stats.atlasMmPerTexel = frame.atlas.mmPerTexel;
     for (const Light& light : frame.input->rig.lights) stats.lights += light.enabled;

@@ -124,7 +124,7 @@ std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry,
 
 }  // namespace
 
-std::vector<TextureUse> textureUses(const Scene& scene, const Geometry& geometry) {
+std::vector<TextureUse> textureUses(const Scene& scene, const Geometry& geometry, bool prune) {
     std::vector<TextureUse> uses(scene.textures.size(), TextureUse::none);
     for (const GeometryDraw& draw : geometry.draws) {
         const Material& material = scene.materials[draw.material];
@@ -136,6 +136,7 @@ std::vector<TextureUse> textureUses(const Scene& scene, const Geometry& geometry
             use = normals ? TextureUse::normals : TextureUse::values;
         }
     }
+    if (!prune) std::replace(uses.begin(), uses.end(), TextureUse::none, TextureUse::values);
     return uses;
 }
 
@@ -163,14 +164,44 @@ skin::Profile profileOf(const Scene& scene, int material, int gaussians) {
     return gaussians > 0 ? skin::reduced(profile, gaussians) : profile;
 }
 
-std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, int gaussians) {
+namespace {
+
+// The Gaussians of up to that variance (mm²) as one of their mean variance.
+skin::Profile narrowAsOne(const skin::Profile& profile, double variance) {
+    skin::Profile result;
+    double weights = 0;
+    for (const skin::Gaussian& g : profile.gaussians) {
+        if (result.gaussians.empty() || g.variance > variance) {
+            result.gaussians.push_back(g);
+            weights = g.weight.x + g.weight.y + g.weight.z;
+            continue;
+        }
+        skin::Gaussian& one = result.gaussians.back();
+        const double more = g.weight.x + g.weight.y + g.weight.z;
+        one.variance = (one.variance * weights + g.variance * more) / (weights + more);
+        one.weight += g.weight;
+        weights += more;
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, const RenderSettings& settings) {
+    constexpr double kLookupVariance = 1.0 / 6;  // texels², as in shaders/lib/blur_reach.glsl
+    // Gaussians so narrow bring less than 5e-5 of their light through a millimetre of skin, whichever their variance.
+    constexpr double kOpaqueVariance = 0.05;  // mm²
+    const bool merge = settings.prune && settings.chain == Chain::exact;
     std::vector<ChartRange> ranges;
     std::size_t terms = 0;
     for (const AtlasChart& chart : atlas.charts) {
         ChartRange range;
         range.rect = chart.rect;
         range.firstGaussian = static_cast<std::uint32_t>(terms);
-        range.profile = profileOf(scene, chart.material, gaussians);
+        range.profile = profileOf(scene, chart.material, settings.gaussians);
+        double narrow = kLookupVariance * chart.finestMm * chart.finestMm;
+        if (scene.materials[chart.material].skin->translucency) narrow = std::min(narrow, kOpaqueVariance);
+        if (merge) range.profile = narrowAsOne(range.profile, narrow);
         range.mmPerUnit = static_cast<float>(scene.materials[chart.material].skin->mmPerUnit);
         range.coarsestMm = chart.coarsestMm;
         range.receiverGroup = static_cast<std::uint32_t>(chart.character);
@@ -201,7 +232,7 @@ void forgetMeshes(FrameContext& frame) {
 void uploadSceneTextures(FrameContext& frame) {
     const Scene& scene = *frame.input->scene;
     SceneBuffers& buffers = frame.scene.buffers;
-    TextureArrays arrays = uploadTextures(*frame.device, *frame.commands, scene, textureUses(scene, frame.geometry));
+    TextureArrays arrays = uploadTextures(*frame.device, *frame.commands, scene, textureUses(scene, frame.geometry, frame.settings->prune));
     buffers.textureGroups = static_cast<std::uint32_t>(arrays.images.size());
     buffers.textureArrays = std::move(arrays.images);
     buffers.materialTextures = std::move(arrays.sampled);
@@ -245,6 +276,8 @@ void uploadMaterials(FrameContext& frame) {
     buffers.albedoTable = uploadBuffer(*frame.device, *frame.commands, "directional albedo", table);
     buffers.textureSlots = usedSlots(scene, frame.geometry);
     buffers.ranges = makeRanges(scene, frame.geometry, frame.scene.texturePlaces);
+    buffers.seenThrough = frame.needs[Need::transparency];
+    buffers.skinShines = frame.needs[Need::skinSpecular];
 }
 
 void uploadLayout(FrameContext& frame) {
@@ -275,7 +308,7 @@ void uploadDraws(FrameContext& frame) {
 }
 
 void uploadProfiles(FrameContext& frame) {
-    frame.scene.charts = chartRanges(*frame.input->scene, frame.atlas, frame.settings->gaussians);
+    frame.scene.charts = chartRanges(*frame.input->scene, frame.atlas, *frame.settings);
     frame.scene.gaussians = 0;
     std::vector<shared::GaussianTerm> terms;
     for (const ChartRange& chart : frame.scene.charts) {

@@ -22,8 +22,9 @@ struct UploadedScene {
     int gaussians = 0;                                // most of any chart
 };
 
-// Textures that some drawn material samples. Skin has its own roughness, so its metallic-roughness map never is.
-std::vector<TextureUse> textureUses(const Scene& scene, const Geometry& geometry);
+// Textures that some drawn material samples, without `prune` all of them. Skin has its own roughness, so its
+// metallic-roughness map never is.
+std::vector<TextureUse> textureUses(const Scene& scene, const Geometry& geometry, bool prune);
 // Materials that are drawn as skin, each once, in the order of the draws.
 std::vector<int> skinMaterials(const Scene& scene, const Geometry& geometry);
 // Their distinct specular layers, in the order of the environment's matte maps.
@@ -32,8 +33,10 @@ std::vector<SkinSpecular> skinLayers(const Scene& scene, const Geometry& geometr
 // > 0, reduced to that many.
 skin::Profile profileOf(const Scene& scene, int material, int gaussians);
 
-// The charts of the atlas as passes use them.
-std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, int gaussians);
+// The charts of the atlas as passes use them. With settings.prune, the Gaussians whose variance a lookup between texels
+// adds anyway (1/6 texel²) are one: their levels of diffusion would be the same texture. That is so where a texel is no
+// smaller than AtlasChart::finestMm, on all but a fiftieth of them; there light stays sharper by less than half a texel.
+std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, const RenderSettings& settings);
 // Whether wide Gaussians are blurred at a lower resolution.
 bool reducesLevels(const RenderSettings& settings);
 

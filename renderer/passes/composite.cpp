@@ -50,10 +50,7 @@ shared::ViewCamera cameraOfTile(shared::ViewCamera camera, const ViewTile& tile)
 }
 
 int layerCount(const SceneBuffers& scene) {
-    for (const DrawRange& range : scene.ranges) {
-        if (range.blended) return kPeeledLayers + 1;
-    }
-    return 1;
+    return scene.seenThrough ? kPeeledLayers + 1 : 1;
 }
 
 struct PeelDepths {
@@ -198,6 +195,8 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
     const SceneBuffers& scene = *input.scene;
     const TileBuffers& buffers = *input.buffers;
     const bool aovs = static_cast<bool>(target.aovs);
+    // Skin that does not shine sees its light in the exitance alone.
+    const bool matte = skin && !scene.skinShines;
     std::string shader = "shade.comp";
     gpu::Bindings bindings{{"PointBuffer", buffers.points},
                            {"ListBuffer", skin ? buffers.skinList : buffers.otherList},
@@ -219,7 +218,7 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
         bindings.push_back({"surfaceNormal", input.surface->normal});
         if (aovs) bindings.push_back({"incident", input.skin->incident});
     }
-    if (input.lights->depth) {
+    if (input.lights->depth && !matte) {
         shader += "+SHADOWS";
         if (skin) {
             bindings.push_back({"lightVisibility", input.skin->visibility});
@@ -229,7 +228,7 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
             bindings.push_back({"lightDepth", nearest(device, input.lights->depth)});
         }
     }
-    if (input.environment) {
+    if (input.environment && !matte) {
         shader += "+ENVIRONMENT";
         if (!skin) {
             bindings.push_back({"environmentIrradiance", bilinear(device, input.environment->irradiance)});
@@ -248,7 +247,7 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
         shader += "+AOVS";
         bindings.push_back({"aovs", target.aovs});
     }
-    ShadePush push{tile.origin, tile.pictureSize, input.lights->sampleCount, 1.0f, 0, 0};
+    ShadePush push{tile.origin, tile.pictureSize, matte ? 0 : input.lights->sampleCount, 1.0f, 0, 0};
     for (int i = 0; i < kAovCount; ++i) {
         const auto layer = static_cast<std::uint32_t>(target.aovLayer[i]) & 15u;
         (i < 8 ? push.aovLayers0 : push.aovLayers1) |= layer << (i % 8 * 4);

@@ -26,11 +26,11 @@ struct OcclusionPush {
     std::uint32_t firstVertex, vertexCount, firstProbe, probeCount;  // of a draw
 };
 
-// Calls visit(draw) for every draw whose vertices are probes.
+// Calls visit(draw) for every draw whose vertices are probes that are seen.
 template <class Visit>
 void forEachProbeDraw(const VisibilityInput& input, Visit visit) {
     for (std::size_t d = 0; d < input.draws.size(); ++d) {
-        if (input.draws[d].chart == shared::NO_CHART) visit(d);
+        if (input.draws[d].chart == shared::NO_CHART && input.groupsSeen[input.draws[d].receiverGroup]) visit(d);
     }
 }
 
@@ -73,11 +73,16 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
                                     .height = mapSize,
                                     .layers = kBatch * std::min(groups, kGroupBatch)});
 
+    const auto unseen = std::find(input.groupsSeen.begin(), input.groupsSeen.end(), false);
+    if (unseen != input.groupsSeen.end()) commands.clear(depth, gpu::ClearValue::depth(1));  // theirs stays empty
     const auto directionCount = static_cast<std::uint32_t>(directions.size());
     for (std::uint32_t first = 0; first < groups; first += kGroupBatch) {
         const std::uint32_t groupCount = std::min(kGroupBatch, groups - first);
+        const auto seen = input.groupsSeen.begin() + first;
+        if (std::none_of(seen, seen + groupCount, [](bool s) { return s; })) continue;
         for (std::uint32_t word = 0; word < words; ++word) {
             for (std::uint32_t g = first; g < first + groupCount; ++g) {
+                if (!input.groupsSeen[g]) continue;
                 recordLightMaps(device, commands, *input.scene,
                                 {.depth = &depth,
                                  .viewBuffer = &viewBuffer,
@@ -101,7 +106,9 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
                                {"lightDepthCompare", depthComparison(device, depth)}},
                               *input.tiles);
                 for (std::uint32_t chart = 0; chart < input.tiles->receiverGroups.size(); ++chart) {
-                    if (!hasMaps(input.tiles->receiverGroups[chart])) continue;
+                    // Of what is not seen no tile is needed.
+                    const std::uint32_t group = input.tiles->receiverGroups[chart];
+                    if (!hasMaps(group) && input.groupsSeen[group]) continue;
                     push.tiles = tilePush(*input.tiles, chart, input.tiles->probes());
                     commands.dispatchIndirect(device.program("environment_visibility.comp"), bindings, push,
                                               input.tiles->dispatches, tileGroups(push.tiles, 1));

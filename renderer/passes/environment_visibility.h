@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "renderer/passes/atlas_tiles.h"
 #include "renderer/passes/resources.h"
@@ -19,6 +20,7 @@ struct VisibilityInput {
     std::span<const shared::DrawInfo> draws;      // as uploaded
     std::span<const std::uint32_t> vertexCounts;  // of each draw
     std::span<const Bounds> groups;               // receivers, world
+    std::vector<bool> groupsSeen;                 // of them; some are. The others are left out
     Bounds casters;                               // world
     glm::dvec3 origin{0};
     std::uint32_t probeCount = 0;  // vertices that are not skin

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "renderer/core/hash.h"
 #include "renderer/gpu/device.h"
 #include "renderer/passes/light_views.h"
 
@@ -13,6 +14,7 @@ struct MapPush {
     std::uint32_t view;
     float texelsToUnit;
     std::uint32_t material;
+    std::uint32_t seed;
 };
 
 // Draw calls of one kind: skin that takes light in, whatever else stops it, or one masked material.
@@ -83,7 +85,8 @@ void drawBatch(gpu::Device& device, gpu::Commands& commands, const SceneBuffers&
     std::vector<std::string> shaders{vertex};
     if (targets.entry || batch.masked) shaders.push_back(fragment);
     commands.draw(device.program(shaders, state, constants), bindings,
-                  MapPush{view, 1.0f / static_cast<float>(std::max(targets.atlasSize, 1)), batch.material},
+                  MapPush{view, 1.0f / static_cast<float>(std::max(targets.atlasSize, 1)), batch.material,
+                      static_cast<std::uint32_t>(ContentHash().add(targets.views[view].worldToClip).value())},
                   batch.calls, targets.proxies ? &scene.proxyIndices : &scene.indices);
 }
 

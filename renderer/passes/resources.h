@@ -42,6 +42,8 @@ struct SceneBuffers {
     std::vector<gpu::Image> textureArrays;
     std::vector<gpu::SampledImage> materialTextures;  // MAX_TEXTURE_GROUPS of them, or none
     std::vector<DrawRange> ranges;
+    bool seenThrough = true;  // some range may be blended
+    bool skinShines = true;   // some skin may have a specular layer
     std::uint32_t textureGroups = 0,
                   textureSlots = 0;  // specialization constants 0 and 1 of what samples textures
     gpu::Specialization textureConstants() const { return {{0, textureGroups}, {1, textureSlots}}; }

@@ -10,7 +10,7 @@ namespace cutis::test {
 namespace {
 
 const std::vector<std::vector<std::string>> kCommands = {
-    {"view"},        {"render"},      {"reference"},    {"compare"},       {"measure"},
+    {"view"},        {"render"},      {"plan"},         {"reference"},    {"compare"},       {"measure"},
     {"rig", "list"}, {"rig", "show"}, {"rig", "check"}, {"rig", "export"}, {"devices"}};
 
 std::string joined(const std::vector<std::string>& words) {

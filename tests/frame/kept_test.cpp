@@ -92,10 +92,10 @@ TEST(Kept, ALightMapRowKnowsThatOnlyPlacesChanged) {
         }
         return Changes{};
     };
-    EXPECT_TRUE(changesOf("light_maps").only(Input::lightPlaces));
-    EXPECT_FALSE(changesOf("thickness").only(Input::lightPlaces)) << "the maps changed too";
+    EXPECT_TRUE(changesOf("light_maps").only({Input::lightPlaces}));
+    EXPECT_FALSE(changesOf("thickness").only({Input::lightPlaces})) << "the maps changed too";
     inputs[static_cast<std::size_t>(Input::materials)] = 1;
-    EXPECT_FALSE(changesOf("light_maps").only(Input::lightPlaces));
+    EXPECT_FALSE(changesOf("light_maps").only({Input::lightPlaces}));
 }
 
 }  // namespace

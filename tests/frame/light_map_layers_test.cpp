@@ -21,7 +21,7 @@ std::vector<shared::LightView> viewsOf(const std::vector<int>& ids) {
 // Assigns and returns how many views must be drawn; every view has a layer of its own.
 std::size_t drawn(LightMapLayers& layers, const std::vector<int>& ids, std::vector<std::uint32_t>* at = nullptr) {
     auto views = viewsOf(ids);
-    const LightMapLayers::Assignment result = layers.assign(views);
+    const LightMapLayers::Assignment result = layers.assign(views, std::vector(views.size(), true));
     std::set<std::uint32_t> used;
     for (const shared::LightView& view : views) used.insert(view.layer);
     EXPECT_EQ(used.size(), ids.size());
@@ -56,7 +56,7 @@ TEST(LightMapLayers, GrowsAndShrinksWithoutDrawingAnew) {
     LightMapLayers layers;
     drawn(layers, {1, 2});
     auto views = viewsOf({5, 2, 1, 6, 7});
-    const LightMapLayers::Assignment grown = layers.assign(views);
+    const LightMapLayers::Assignment grown = layers.assign(views, std::vector(views.size(), true));
     EXPECT_TRUE(grown.newImage);
     EXPECT_EQ(layers.layers(), 5u);
     EXPECT_EQ(grown.draw, (std::vector<std::uint32_t>{0, 3, 4}));
@@ -66,10 +66,25 @@ TEST(LightMapLayers, GrowsAndShrinksWithoutDrawingAnew) {
         EXPECT_EQ(views[move.from == 1 ? 1 : 2].layer, move.to);
     }
     views = viewsOf({6});
-    const LightMapLayers::Assignment shrunk = layers.assign(views);
+    const LightMapLayers::Assignment shrunk = layers.assign(views, std::vector(views.size(), true));
     EXPECT_TRUE(shrunk.newImage);
     EXPECT_EQ(layers.layers(), 1u);
     EXPECT_TRUE(shrunk.draw.empty());
+}
+
+TEST(LightMapLayers, WhatNothingLooksUpHasNoLayer) {
+    LightMapLayers layers;
+    auto views = viewsOf({1, 2, 3, 4});
+    LightMapLayers::Assignment result = layers.assign(views, {false, true, false, true});
+    EXPECT_EQ(layers.layers(), 2u);
+    EXPECT_EQ(result.draw, (std::vector<std::uint32_t>{1, 3}));
+    EXPECT_NE(views[1].layer, views[3].layer);
+    for (const shared::LightView& view : views) EXPECT_LT(view.layer, 2u);
+    result = layers.assign(views, {false, true, true, true});
+    EXPECT_EQ(result.draw, (std::vector<std::uint32_t>{2}));
+    LightMapLayers none;
+    EXPECT_TRUE(none.assign(views, std::vector(views.size(), false)).draw.empty());
+    EXPECT_EQ(none.layers(), 1u);
 }
 
 }  // namespace
