@@ -142,6 +142,7 @@ void RenderWorker::run() {
             std::unique_lock lock(mutex_);
             changed_.wait(lock, [this] { return ended_ || next_.has_value() || !aside_.empty(); });
             if (ended_) break;
+            status_.working = true;
             if (next_) {
                 job = std::exchange(next_, std::nullopt);
             } else {
@@ -157,10 +158,12 @@ void RenderWorker::run() {
             error = "out of memory: the scene or the picture is too large for this machine";
         } catch (const std::exception& problem) {
             error = problem.what();
+            // Nothing more comes from a lost device: the next picture opens one anew.
+            if (error.find("device was lost") != std::string::npos) renderers_ = {};
         }
         {
             const std::lock_guard lock(mutex_);
-            status_.busy = false;
+            status_.busy = status_.working = false;
             if (job || !error.empty()) status_.error = error;
             if (aside && !error.empty()) asideResults_.push_back({aside->id, nullptr, {}});
         }

@@ -52,7 +52,8 @@ struct AsideResult {
 };
 
 struct WorkerStatus {
-    bool busy = false;
+    bool working = false;       // not at rest: a picture is under way, or the next one is about to be
+    bool busy = false;          // a picture is under way
     int width = 0, height = 0;  // of the picture under way
     double seconds = 0;         // since it was begun
     std::size_t aside = 0;      // pictures beside the view that are still to come

@@ -75,6 +75,23 @@ class Viewer {
     }
 
     void run() {
+        try {
+            runUntilQuit();
+        } catch (...) {  // the window's device was lost: the rig must not be
+            autosave(session_);
+            throw;
+        }
+        discardAutosave();
+        window_.hide();
+        if (!session_.request.stats.empty()) times_.write(session_.request.stats);
+        if (session_.writing.valid()) session_.writing.wait();
+    }
+
+    // A picture is under way: only its end can be waited for.
+    bool rendering() const { return worker_.status().working; }
+
+  private:
+    void runUntilQuit() {
         while (!session_.quit) {
             window_.waitEvents(pause());
             const Clock::time_point begun = Clock::now();
@@ -85,16 +102,8 @@ class Viewer {
             saveNowAndThen();
             times_.addFrame(std::chrono::duration<double>(Clock::now() - begun).count(), turning());
         }
-        discardAutosave();
-        window_.hide();
-        if (!session_.request.stats.empty()) times_.write(session_.request.stats);
-        if (session_.writing.valid()) session_.writing.wait();
     }
 
-    // A picture is under way: only its end can be waited for.
-    bool rendering() const { return worker_.status().busy; }
-
-  private:
     // The view is being dragged.
     bool turning() const {
         const ImGuiIO& io = ImGui::GetIO();

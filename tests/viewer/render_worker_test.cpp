@@ -140,6 +140,25 @@ TEST(RenderWorker, AnotherExposureIsNotRenderedAnew) {
     EXPECT_LE(rendered - before, RenderWorker::kRefinements - 1);  // the refinement, but no first picture
 }
 
+TEST(RenderWorker, ALostDeviceIsOpenedAnew) {
+    int opened = 0;
+    RenderWorker worker(
+        [&] {
+            ++opened;
+            return both([first = opened == 1](const RenderInput&, const RenderSettings& settings) {
+                if (first) throw Error("rendering", "the device was lost (driver crash or time-out)");
+                return greyPicture(settings);
+            });
+        },
+        [] {});
+    worker.show(1, stateOf(0));
+    for (int i = 0; i < 5000 && worker.status().error.empty(); ++i) std::this_thread::sleep_for(1ms);
+    EXPECT_NE(worker.status().error.find("lost"), std::string::npos);
+    worker.show(2, stateOf(0));
+    ASSERT_FALSE(resultsUntil(worker, 2).empty());
+    EXPECT_EQ(opened, 2);
+}
+
 TEST(RenderWorker, PicturesBesideTheViewFollowIt) {
     std::vector<int> widths;
     std::vector<AsideResult> beside;
