@@ -1,6 +1,5 @@
 // What settings of the default scene were measured at: `cutis measure default --camera group --budget 60s
-// --repeats 9` (docs/measure.md), those of its rows that are faster or closer than the others on a GPU and on
-// a CPU alike.
+// --repeats 9` (docs/measure.md): rows from fast to close, in an order that holds on a GPU and on a CPU alike.
 #include "renderer/measure/front.h"
 
 namespace cutis {
