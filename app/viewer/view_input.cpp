@@ -61,7 +61,12 @@ void drawHandles(const Session& session, const std::vector<Handle>& handles, int
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const float scale = static_cast<float>(session.uiScale);
     const Rig shining = effectiveRig(session.document());
-    std::vector<ImVec4> labels;  // left, top, right, bottom of those that are drawn
+    std::vector<ImVec4> taken;  // left, top, right, bottom of the handles, and of labels that are drawn
+    for (const Handle& handle : handles) {
+        const float radius = 8 * scale;
+        taken.emplace_back(handle.at.x - radius, handle.at.y - radius, handle.at.x + radius,
+                           handle.at.y + radius);
+    }
     for (const Handle& handle : handles) {
         const auto index = static_cast<std::size_t>(handle.light);
         const bool chosen = handle.light == session.selectedLight;
@@ -78,12 +83,12 @@ void drawHandles(const Session& session, const std::vector<Handle>& handles, int
         ImVec2 text(handle.at.x - size.x / 2, handle.at.y + radius + 2 * scale);
         text.x =
             std::clamp(text.x, float(session.view.x), float(session.view.x + session.view.width) - size.x);
-        // Below the labels and handles that are there already.
-        for (const ImVec4& other : labels)
+        // Below what is there already.
+        for (const ImVec4& other : taken)
             if (text.x < other.z && text.x + size.x > other.x && text.y < other.w &&
                 text.y + size.y > other.y)
                 text.y = other.w;
-        labels.emplace_back(text.x, handle.at.y - radius, text.x + size.x, text.y + size.y);
+        taken.emplace_back(text.x, text.y, text.x + size.x, text.y + size.y);
         draw.AddText({text.x + 1, text.y + 1}, IM_COL32(0, 0, 0, 180), name.c_str());
         draw.AddText(text, color, name.c_str());
     }
