@@ -81,8 +81,8 @@ void drawHandles(const Session& session, const std::vector<Handle>& handles, int
         const std::string& name = shining.lights[index].name;
         const ImVec2 size = ImGui::CalcTextSize(name.c_str());
         ImVec2 text(handle.at.x - size.x / 2, handle.at.y + radius + 2 * scale);
-        text.x =
-            std::clamp(text.x, float(session.view.x), float(session.view.x + session.view.width) - size.x);
+        const float left = float(session.view.x), right = left + float(session.view.width) - size.x;
+        text.x = std::max(std::min(text.x, right), left);
         // Below what is there already.
         for (const ImVec4& other : taken)
             if (text.x < other.z && text.x + size.x > other.x && text.y < other.w &&

@@ -42,7 +42,9 @@ Layout layOut(Session& session, float width, float height, float menuBar, float 
     Layout layout;
     layout.top = menuBar;
     layout.bottom = statusBar;
-    layout.side = session.showPanels ? std::round(kPanelWidth * scale) : 0;
+    // In a window that is too narrow for both, the picture is worth more.
+    const bool fits = width > 2.5f * kPanelWidth * scale;
+    layout.side = session.showPanels && fits ? std::round(kPanelWidth * scale) : 0;
     const int bar = static_cast<int>(ImGui::GetFrameHeight() + 6 * scale);
     const int mixer = session.mixer.shown ? static_cast<int>(kMixerHeight * scale) : 0;
     PixelRect& room = session.room;

@@ -229,7 +229,7 @@ class Viewer {
         if (session_.geometry) {
             drawViewBar(session_, layout.bar);
             if (session_.mixer.shown) drawMixerStrip(session_, layout.mixer);
-            if (session_.showPanels) {
+            if (layout.side > 0) {
                 drawSide("##rig", 0, layout, [this] { drawLeft(); });
                 drawSide("##look", io.DisplaySize.x - layout.side, layout, [this] { drawRight(); });
             }
