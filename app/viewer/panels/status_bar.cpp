@@ -61,8 +61,10 @@ void drawStatusBar(Session& session, float height) {
     if (failed || session.messageIsError) ImGui::PopStyleColor();
     ImGui::PopClipRect();
     if (!said.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", said.c_str());
-    ImGui::SameLine(right);
-    ImGui::TextDisabled("%s", device.c_str());
+    if (at.x < right) {  // what is being done matters more
+        ImGui::SameLine(right);
+        ImGui::TextDisabled("%s", device.c_str());
+    }
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();

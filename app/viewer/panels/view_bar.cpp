@@ -1,6 +1,7 @@
 // Above the picture: what it shows, what dragging in it does.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -79,7 +80,10 @@ void drawViewBar(Session& session, const PixelRect& where) {
     ImGui::SameLine(0, 16 * scale);
     if (toggleButton("Mixer", session.mixer.shown, accentColor())) session.mixer.shown = !session.mixer.shown;
     hint("Every light's own picture with a fader: mixing them renders nothing (X)");
-    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::GetFontSize() * 4.5f - 8 * scale);
+    // At the right edge, or after the rest where that leaves no room.
+    const float right = ImGui::GetWindowWidth() - ImGui::GetFontSize() * 4.5f - 8 * scale;
+    ImGui::SameLine();
+    ImGui::SameLine(std::max(right, ImGui::GetCursorPosX()));
     drawShape(session);
     ImGui::End();
 }
