@@ -216,7 +216,8 @@ glm::dvec3 irradianceFrom(const LightSample& sample, const glm::dvec3& p, const 
     double factor = std::max(0.0, glm::dot(n, l)) / squared;
     if (sample.cosineEmission) factor *= std::max(0.0, cosEmitted);
     if (sample.cosOuter > -1) {
-        const double width = std::max(0.001, sample.cosInner - sample.cosOuter);
+        // Not KHR_lights_punctual's 0.001: it would dim cones of up to 2.5 degrees.
+        const double width = std::max(1e-6, sample.cosInner - sample.cosOuter);
         const double cone = std::clamp((cosEmitted - sample.cosOuter) / width, 0.0, 1.0);
         factor *= cone * cone;
     }

@@ -27,7 +27,7 @@ Incident incidentLight(LightSampleData light, vec3 p) {
     float cosine = -dot(incident.direction, light.direction);
     if ((light.flags & LIGHT_COSINE) != 0u) e *= max(cosine, 0.0);
     if (light.cosOuter > -1.0) {
-        float t = clamp((cosine - light.cosOuter) / max(light.cosInner - light.cosOuter, 1e-4), 0.0, 1.0);
+        float t = clamp((cosine - light.cosOuter) / max(light.cosInner - light.cosOuter, 1e-6), 0.0, 1.0);
         e *= t * t;  // KHR_lights_punctual's recommended falloff
     }
     if (light.range > 0.0) {
