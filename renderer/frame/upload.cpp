@@ -189,8 +189,6 @@ skin::Profile narrowAsOne(const skin::Profile& profile, double variance) {
 
 std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, const RenderSettings& settings) {
     constexpr double kLookupVariance = 1.0 / 6;  // texels², as in shaders/lib/blur_reach.glsl
-    // Gaussians so narrow bring less than 5e-5 of their light through a millimetre of skin, whichever their variance.
-    constexpr double kOpaqueVariance = 0.05;  // mm²
     const bool merge = settings.prune && settings.chain == Chain::exact;
     std::vector<ChartRange> ranges;
     std::size_t terms = 0;
@@ -199,9 +197,10 @@ std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, cons
         range.rect = chart.rect;
         range.firstGaussian = static_cast<std::uint32_t>(terms);
         range.profile = profileOf(scene, chart.material, settings.gaussians);
-        double narrow = kLookupVariance * chart.finestMm * chart.finestMm;
-        if (scene.materials[chart.material].skin->translucency) narrow = std::min(narrow, kOpaqueVariance);
-        if (merge) range.profile = narrowAsOne(range.profile, narrow);
+        // Through a rim as thin as a narrow Gaussian light comes by its own variance.
+        if (merge && !scene.materials[chart.material].skin->translucency) {
+            range.profile = narrowAsOne(range.profile, kLookupVariance * chart.finestMm * chart.finestMm);
+        }
         range.mmPerUnit = static_cast<float>(scene.materials[chart.material].skin->mmPerUnit);
         range.coarsestMm = chart.coarsestMm;
         range.receiverGroup = static_cast<std::uint32_t>(chart.character);

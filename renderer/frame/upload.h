@@ -33,7 +33,7 @@ std::vector<SkinSpecular> skinLayers(const Scene& scene, const Geometry& geometr
 // > 0, reduced to that many.
 skin::Profile profileOf(const Scene& scene, int material, int gaussians);
 
-// The charts of the atlas as passes use them. With settings.prune, the Gaussians whose variance a lookup between texels
+// The charts of the atlas as passes use them. With settings.prune, of skin that is not translucent the Gaussians whose variance a lookup between texels
 // adds anyway (1/6 texel²) are one: their levels of diffusion would be the same texture. That is so where a texel is no
 // smaller than AtlasChart::finestMm, on all but a fiftieth of them; there light stays sharper by less than half a texel.
 std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, const RenderSettings& settings);

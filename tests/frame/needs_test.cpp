@@ -39,7 +39,9 @@ const std::vector<Case>& cases() {
          {"light_maps", "thickness", "translucency"}},
         {"no area lights", [](SmallScene& s) { s.input.rig.lights.erase(s.input.rig.lights.begin() + 2); },
          {"area_lights"}},
-        {"no translucency", [](SmallScene& s) { s.skin().translucency = false; }, {"thickness", "translucency"}},
+        {"no translucency",
+         [](SmallScene& s) { s.skin().translucency = false; },
+         {"gaussians", "thickness", "translucency"}},
         {"no skin",
          [](SmallScene& s) {
              s.scene.materials[s.skinMaterial].skin.reset();
@@ -55,9 +57,12 @@ const std::vector<Case>& cases() {
          [](SmallScene& s) { s.skin().profile.gaussians[3].weight = glm::dvec3(0); },
          {"gaussians"}},
         {"Gaussians narrower than a texel",
-         [](SmallScene& s) { s.settings.irradianceSize = 48; },
-         {"gaussians"},
-         // Where light crosses less than a millimetre at an edge, how much depends on the variance. Texels are 11 mm here.
+         [](SmallScene& s) {
+             s.settings.irradianceSize = 48;
+             s.skin().translucency = false;
+         },
+         {"gaussians", "thickness", "translucency"},
+         // The smallest fiftieth of texels stays sharper. Texels are 11 mm here.
          3e-3},
         {"a character out of view",
          [](SmallScene& s) { s.input.camera = s.cameraAt(0.25); },
@@ -91,6 +96,9 @@ std::set<std::string> namesOf(const std::vector<LeftOut>& list) {
     }
     return names;
 }
+
+// Lists of what is seen, which only pruning keeps.
+constexpr std::uint64_t kBookkeeping = 4096;
 
 double sumMs(const RenderStats& stats) {
     double sum = 0;
@@ -130,7 +138,7 @@ TEST_F(LeftOutParts, WhatIsLeftOutChangesNothing) {
         constexpr double kMiB = 1 << 20;
         std::printf("%-34s %9.1f %9.1f %9.2f %9.2f\n", what.name, sumMs(pruned.stats), sumMs(all.stats),
                     static_cast<double>(pruned.stats.bytesGpu) / kMiB, static_cast<double>(all.stats.bytesGpu) / kMiB);
-        EXPECT_LE(pruned.stats.bytesGpu, all.stats.bytesGpu);
+        EXPECT_LE(pruned.stats.bytesGpu, all.stats.bytesGpu + kBookkeeping);
     }
 }
 
