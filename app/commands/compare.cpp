@@ -1,13 +1,11 @@
 // cutis compare: two rigs, or each light alone against all of them.
-#include <future>
 
 #include "app/command.h"
-#include "app/inputs.h"
 #include "app/output_folder.h"
+#include "app/prepared.h"
 #include "app/progress.h"
 #include "app/usage_error.h"
 #include "renderer/core/error.h"
-#include "renderer/gpu/device.h"
 #include "renderer/measure/comparison.h"
 
 namespace cutis::app {
@@ -59,11 +57,9 @@ int runCompare(const Request& request) {
     progress.setStage("loading");
     Request first = request, second = request;
     if (request.rigA) first.rig = request.rigA, second.rig = request.rigB;
-    std::future<Inputs> loading = std::async(std::launch::async, [&] { return loadInputs(first); });
-    gpu::DeviceOptions deviceOptions;
-    deviceOptions.select = request.device;
-    gpu::Device device(deviceOptions);
-    const Inputs inputs = loading.get();
+    Prepared prepared(first);
+    const Inputs& inputs = prepared.inputs;
+    gpu::Device& device = prepared.device;
 
     std::vector<ComparedPicture> pictures;
     const auto add = [&](const Inputs& from, const Lighting& lighting) {
@@ -86,10 +82,7 @@ int runCompare(const Request& request) {
     }
     progress.setStage("writing");
     writeComparison(request.outputs.front(), title, pictures);
-    if (const std::uint64_t messages = gpu::validationMessages()) {
-        throw Error("validation failed", std::to_string(messages) + " messages from the validation layers",
-                    device.info().name);
-    }
+    checkValidation(device);
     return 0;
 }
 

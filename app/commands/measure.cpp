@@ -1,18 +1,16 @@
 // cutis measure: error against run time.
 #include <atomic>
 #include <cstdio>
-#include <future>
 
 #include "app/command.h"
-#include "app/inputs.h"
 #include "app/output_folder.h"
+#include "app/prepared.h"
 #include "app/progress.h"
 #include "app/signals.h"
 #include "app/tolerance.h"
 #include "app/usage_error.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
-#include "renderer/gpu/device.h"
 #include "renderer/measure/maps.h"
 #include "renderer/measure/measurement.h"
 #include "renderer/measure/report.h"
@@ -86,11 +84,9 @@ int runMeasure(const Request& request) {
     prepareOutputFolder(folder, "measure.json");
     Progress progress;
     progress.setStage("loading");
-    std::future<Inputs> loading = std::async(std::launch::async, [&] { return loadInputs(request); });
-    gpu::DeviceOptions deviceOptions;
-    deviceOptions.select = request.device;
-    gpu::Device device(deviceOptions);
-    const Inputs inputs = loading.get();
+    Prepared prepared(request);
+    const Inputs& inputs = prepared.inputs;
+    gpu::Device& device = prepared.device;
 
     const MeasureInput input{.scene = &inputs.scene,
                              .rig = inputs.rig,
@@ -145,10 +141,7 @@ int runMeasure(const Request& request) {
     recordMeasurement(inputs, device.info(), reportJson(rows, info));
     writeReport(folder, rows, info);
     for (const std::string& paragraph : reportText(rows, info)) std::printf("%s\n", paragraph.c_str());
-    if (const std::uint64_t messages = gpu::validationMessages()) {
-        throw Error("validation failed", std::to_string(messages) + " messages from the validation layers",
-                    device.info().name);
-    }
+    checkValidation(device);
     return 0;
 }
 

@@ -1,16 +1,13 @@
 // cutis plan: what a picture would run.
 #include <cstdio>
-#include <future>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/command.h"
-#include "app/inputs.h"
+#include "app/prepared.h"
 #include "app/progress.h"
 #include "app/stats_json.h"
-#include "renderer/core/error.h"
-#include "renderer/gpu/device.h"
 
 namespace cutis::app {
 namespace {
@@ -59,18 +56,11 @@ void print(const RenderStats& stats, const RenderSettings& settings) {
 int runPlan(const Request& request) {
     std::optional<Progress> progress(std::in_place);
     progress->setStage("loading");
-    std::future<Inputs> loading = std::async(std::launch::async, [&] { return loadInputs(request); });
-    gpu::DeviceOptions deviceOptions;
-    deviceOptions.select = request.device;
-    gpu::Device device(deviceOptions);
-    const Inputs inputs = loading.get();
-    const RenderInput input{.scene = &inputs.scene,
-                            .rig = inputs.rig,
-                            .environment = inputs.environment ? &*inputs.environment : nullptr,
-                            .camera = inputs.camera};
+    Prepared prepared(request);
+    const RenderInput input = renderInput(prepared.inputs);
     RenderSettings settings = request.settings;
     settings.repeats = kMeasuredFrames;
-    Renderer renderer(device, Renderer::Views::one);
+    Renderer renderer(prepared.device, Renderer::Views::one);
     RenderStats stats;
     if (request.measure) {
         progress->setStage("measuring");
@@ -85,10 +75,7 @@ int runPlan(const Request& request) {
     } else {
         print(stats, settings);
     }
-    if (const std::uint64_t messages = gpu::validationMessages()) {
-        throw Error("validation failed", std::to_string(messages) + " messages from the validation layers",
-                    stats.device);
-    }
+    checkValidation(prepared.device);
     return 0;
 }
 

@@ -1,17 +1,15 @@
 // cutis render: one picture of a scene.
 #include <chrono>
-#include <future>
 #include <vector>
 
 #include "app/command.h"
-#include "app/inputs.h"
 #include "app/output_files.h"
+#include "app/prepared.h"
 #include "app/progress.h"
 #include "app/stats_json.h"
 #include "app/tolerance.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
-#include "renderer/gpu/device.h"
 
 namespace cutis::app {
 namespace fs = std::filesystem;
@@ -39,12 +37,9 @@ int runRender(const Request& request) {
     Progress progress;
     progress.setStage("loading");
     const Clock::time_point start = Clock::now();
-    // Opening the device and reading files have nothing to do with each other.
-    std::future<Inputs> loading = std::async(std::launch::async, [&] { return loadInputs(request); });
-    gpu::DeviceOptions deviceOptions;
-    deviceOptions.select = request.device;
-    gpu::Device device(deviceOptions);
-    Inputs inputs = loading.get();
+    Prepared prepared(request);
+    Inputs& inputs = prepared.inputs;
+    gpu::Device& device = prepared.device;
     const double loadMs = millisecondsSince(start);
     checkInputsSurvive(inputs, outputs);
 
@@ -52,10 +47,7 @@ int runRender(const Request& request) {
     if (request.tolerance) applyTolerance(*request.tolerance, inputs, device.info(), settings);
 
     progress.setStage("rendering");
-    const RenderInput input{.scene = &inputs.scene,
-                            .rig = inputs.rig,
-                            .environment = inputs.environment ? &*inputs.environment : nullptr,
-                            .camera = inputs.camera};
+    const RenderInput input = renderInput(inputs);
     RenderResult result = renderPicture(device, input, settings);
     result.stats.loadMs = loadMs;
 
@@ -63,10 +55,7 @@ int runRender(const Request& request) {
     writeResult(result, request, inputs.rig.exposure + request.exposure);
     if (result.stats.nonfinite)
         warn(std::to_string(result.stats.nonfinite) + " values of the result are not finite");
-    if (const std::uint64_t messages = gpu::validationMessages()) {
-        throw Error("validation failed", std::to_string(messages) + " messages from the validation layers",
-                    result.stats.device);
-    }
+    checkValidation(device);
     return 0;
 }
 
