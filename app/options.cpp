@@ -16,7 +16,7 @@ namespace {
 constexpr int kMaxSide = 16384;                  // pixels
 constexpr std::int64_t kMaxPixels = 1 << 26;     // 1 GiB as float RGBA
 constexpr int kMinAtlas = 8, kMaxAtlas = 16384;  // texels
-constexpr int kMaxGaussians = 32;
+constexpr int kMaxGaussians = 32, kMaxTaps = 64;
 constexpr double kMaxSeconds = 3.6e6;
 constexpr unsigned kPicture = kRender | kReference;  // the same picture in two ways: the same options
 constexpr unsigned kView = kPicture | kPlan | kCompare | kMeasure | kViewer;  // whatever shows a scene
@@ -295,6 +295,11 @@ std::vector<Option> makeOptions() {
              if (text != "exact" && text != "published") refuse(text, "exact or published");
              r.settings.chain = text == "exact" ? Chain::exact : Chain::published;
          }},
+        {"--taps", "N", kPicture | kPlan | kCompare | kViewer, quality,
+         "Texels that each blur reads on either side, at the most: fewer are faster and less exact (default: 12)", false,
+         [](Request& r, const std::string& text) {
+             r.settings.taps = static_cast<int>(parseInteger(text, 1, kMaxTaps));
+         }},
         {"--seed", "N", kView, quality, "Starts the random numbers of whatever uses any (default: 0)",
          false,
          [](Request& r, const std::string& text) {
@@ -334,10 +339,10 @@ void checkConflicts(const Request& request) {
         throw UsageError("--env none and --env-rotation exclude each other");
     const RenderSettings &asked = request.settings, free;
     const bool own = asked.irradianceSize != free.irradianceSize || asked.gaussians != free.gaussians ||
-                     asked.merge != free.merge || asked.chain != free.chain;
+                     asked.merge != free.merge || asked.chain != free.chain || asked.taps != free.taps;
     if (request.tolerance && own)
-        throw UsageError("--tolerance chooses what --irradiance-size, --gaussians, --merge and --chain set: they exclude "
-                         "each other");
+        throw UsageError("--tolerance chooses what --irradiance-size, --gaussians, --merge, --chain and --taps set: they "
+                         "exclude each other");
     if (request.rig == "none" && !request.lights.empty())
         throw UsageError("--rig none and --light exclude each other");
 }

@@ -51,11 +51,11 @@ Kernel makeKernel(float sigma, float smoothness) {
     // A source that is smooth over σ_s can be sampled every σ_s: what would alias is below exp(-2π²).
     k.step = max(int(smoothness), 1);
     float taps = sigma / float(k.step);
-    if (taps * kReach > float(kMaxTaps)) {
-        k.step = int(ceil(sigma * kReach / float(kMaxTaps)));
+    if (taps * kReach > float(MAX_TAPS)) {
+        k.step = int(ceil(sigma * kReach / float(MAX_TAPS)));
         taps = sigma / float(k.step);
     }
-    k.count = clamp(int(ceil(taps * kReach)), 1, kMaxTaps);
+    k.count = clamp(int(ceil(taps * kReach)), 1, MAX_TAPS);
     k.inverse = 0.5 / max(taps * taps, 1e-6);
     float sum = 1.0, moment = 0.0;
     for (int i = 1; i <= k.count; ++i) {

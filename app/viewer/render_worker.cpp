@@ -21,7 +21,7 @@ bool sameCamera(const Camera& a, const Camera& b) {
 
 bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
     return a.width == b.width && a.height == b.height && a.irradianceSize == b.irradianceSize &&
-           a.gaussians == b.gaussians && a.merge == b.merge && a.chain == b.chain;
+           a.gaussians == b.gaussians && a.merge == b.merge && a.chain == b.chain && a.taps == b.taps;
 }
 
 // All that lights the scene: what is left is the camera, the exposure and what is shown.

@@ -56,6 +56,7 @@ std::string commandLine(Session& session) {
     if (settings.gaussians) line += " --gaussians " + std::to_string(settings.gaussians);
     if (settings.merge == Merge::opposite) line += " --merge opposite";
     if (settings.chain == Chain::published) line += " --chain published";
+    if (settings.taps != RenderSettings{}.taps) line += " --taps " + std::to_string(settings.taps);
     return line;
 }
 

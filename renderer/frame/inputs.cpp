@@ -109,7 +109,7 @@ InputHashes hashInputs(const FrameContext& frame) {
     set(Input::skinMix, mix.value());
     set(Input::profiles, hashProfiles(frame));
     set(Input::levels, hashLevels(frame));
-    set(Input::chain, ContentHash().add(settings.chain).value());
+    set(Input::chain, ContentHash().add(settings.chain, settings.taps).value());
     set(Input::atlasDetail, hashAtlasDetail(frame));
     set(Input::lightMapSize, ContentHash().add(frame.detail.lightMapSize).value());
     ContentHash places, power;

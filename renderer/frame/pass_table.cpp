@@ -140,7 +140,7 @@ void thicknessRow(FrameContext& frame) {
 }
 
 void neededTexelsRow(FrameContext& frame) {
-    recordNeededTiles(*frame.device, *frame.commands, frame.scene.buffers, frame.tiles);
+    recordNeededTiles(*frame.device, *frame.commands, frame.scene.buffers, frame.settings->taps, frame.tiles);
 }
 
 void oppositeRow(FrameContext& frame) {
@@ -193,8 +193,13 @@ void irradianceRow(FrameContext& frame) {
 }
 
 void diffusionRow(FrameContext& frame) {
-    const auto record = frame.settings->chain == Chain::published ? recordPublishedDiffusion : recordDiffusion;
-    record(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.tiles, frame.skin);
+    if (frame.settings->chain == Chain::published) {
+        recordPublishedDiffusion(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.tiles,
+                                 frame.skin);
+    } else {
+        recordDiffusion(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.tiles,
+                        frame.settings->taps, frame.skin);
+    }
 }
 
 void exitanceRow(FrameContext& frame) {
@@ -304,7 +309,7 @@ std::vector<PassRow> rowsOfTheFrame() {
         {.name = "thickness", .phase = Phase::frame, .need = Need::translucency,
          .inputs = {I::lightPlaces, I::profiles}, .reads = {R::surface, R::lightMaps}, .readsIf = {R::seen},
          .updates = {R::seen}, .writes = {R::thickness}, .record = thicknessRow, .forget = forgetThickness},
-        {.name = "needed_texels", .phase = Phase::frame, .need = Need::hiddenSkin, .inputs = {I::profiles},
+        {.name = "needed_texels", .phase = Phase::frame, .need = Need::hiddenSkin, .inputs = {I::profiles, I::chain},
          .reads = {R::surface, R::seen}, .readsIf = {R::thickness}, .updates = {R::seen}, .writes = {R::tiles},
          .record = neededTexelsRow},
         {.name = "environment_visibility", .phase = Phase::frame, .need = Need::environment,

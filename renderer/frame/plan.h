@@ -50,7 +50,7 @@ enum class Input {
     skinMix,              // how much of its albedo light meets before it scatters
     profiles,             // diffusion profiles as they are used, and which skin is translucent
     levels,               // of diffusion: how many there are, and their resolutions
-    chain,                // how light is diffused
+    chain,                // how light is diffused, and by how many taps
     atlasDetail,          // what the layout of the atlas is chosen from
     lightMapSize,
     lightMapsNeeded,      // which of them anything looks up

@@ -31,6 +31,7 @@ struct RenderSettings {
     int lightMapSize = 0;    // texels along each side of a light map; 0: chosen from the picture
     Merge merge = Merge::min;
     Chain chain = Chain::exact;
+    int taps = 12;              // of each blur of the exact chain, on either side at the most, at least 1
     bool reducedLevels = true;  // wide Gaussians are blurred at the lower resolution that their width allows
     double detail = 1;  // atlas and light maps are as fine as a picture of so many times the pixels along each side asks
     int repeats = 1;    // all of the frame is drawn so often, for its times alone

@@ -51,6 +51,7 @@ Setting readMeasuredSetting(const JsonView& row) {
     setting.environmentSamples = readField(row, "environment_samples", -1);
     setting.merge = readChoice(row, "merge", "min", "opposite");
     setting.chain = readChoice(row, "chain", "exact", "published");
+    setting.taps = row.find("taps") ? readField(row, "taps", 0) : 0;  // older reports have none
     setting.lights = readField(row, "lights", 0);
     setting.characters = readField(row, "characters", 0);
     return setting;

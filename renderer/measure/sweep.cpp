@@ -13,7 +13,7 @@
 namespace cutis {
 namespace {
 
-constexpr int kMaxAtlas = 16384, kMaxGaussians = 32, kMaxLightMap = 8192, kMaxSamples = 4096,
+constexpr int kMaxAtlas = 16384, kMaxGaussians = 32, kMaxTaps = 64, kMaxLightMap = 8192, kMaxSamples = 4096,
               kMaxCopies = 512;
 constexpr std::uint64_t kMaxSweepBytes = std::uint64_t(1) << 20;
 constexpr std::size_t kMaxSettings = 1000;
@@ -31,6 +31,9 @@ std::vector<Setting> qualitySweep() {
     for (int k : {1, 2, 3, 4, 5}) {
         settings.push_back(
             {.name = std::to_string(k) + (k == 1 ? " gaussian" : " gaussians"), .gaussians = k});
+    }
+    for (int taps : {1, 3, 6, 24}) {
+        settings.push_back({.name = std::to_string(taps) + (taps == 1 ? " tap" : " taps"), .taps = taps});
     }
     for (int size : {256, 512, 2048}) {
         settings.push_back({.name = "light maps " + std::to_string(size), .lightMapSize = size});
@@ -75,7 +78,7 @@ int readInteger(const JsonView& entry, const char* key, int fallback, int min, i
 
 Setting readSetting(const JsonView& entry, std::set<std::string>& names) {
     entry.allowOnly({"name", "irradiance_size", "gaussians", "light_map_size", "area_samples",
-                     "environment_samples", "merge", "chain", "lights", "characters"});
+                     "environment_samples", "merge", "chain", "taps", "lights", "characters"});
     Setting setting;
     setting.name = entry.member("name").string();
     if (setting.name.empty() || setting.name.size() > 100)
@@ -86,6 +89,7 @@ Setting readSetting(const JsonView& entry, std::set<std::string>& names) {
     setting.lightMapSize = readInteger(entry, "light_map_size", 0, 16, kMaxLightMap);
     setting.areaSamples = readInteger(entry, "area_samples", 0, 1, kMaxSamples);
     setting.environmentSamples = readInteger(entry, "environment_samples", -1, 0, kMaxSamples);
+    setting.taps = readInteger(entry, "taps", 0, 1, kMaxTaps);
     setting.lights = readInteger(entry, "lights", 0, 1, kMaxCopies);
     setting.characters = readInteger(entry, "characters", 0, 1, kMaxCopies);
     setting.merge = entry.string("merge", "min");
@@ -112,6 +116,7 @@ const std::vector<SettingField>& settingFields() {
         {"environment_samples", [](const Setting& s) { return textOf(s.environmentSamples, -1); }},
         {"merge", [](const Setting& s) { return s.merge; }},
         {"chain", [](const Setting& s) { return s.chain; }},
+        {"taps", [](const Setting& s) { return textOf(s.taps, 0); }},
         {"lights", [](const Setting& s) { return textOf(s.lights, 0); }},
         {"characters", [](const Setting& s) { return textOf(s.characters, 0); }},
     };
@@ -162,6 +167,7 @@ void applySetting(const Setting& setting, Scene& scene, Rig& rig, RenderSettings
     quality.lightMapSize = setting.lightMapSize;
     quality.merge = setting.merge == "opposite" ? Merge::opposite : Merge::min;
     quality.chain = setting.chain == "published" ? Chain::published : Chain::exact;
+    if (setting.taps > 0) quality.taps = setting.taps;
     for (Light& light : rig.lights) {
         const bool area = light.type == LightType::rect || light.radius > 0;
         if (area && setting.areaSamples > 0) light.samples = setting.areaSamples;

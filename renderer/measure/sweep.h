@@ -21,6 +21,7 @@ struct Setting {
     int environmentSamples = -1;  // directions of the environment that cast shadows; -1: the rig's
     std::string merge = "min";    // or "opposite"
     std::string chain = "exact";  // or "published"
+    int taps = 0;                 // of each blur, on either side at the most
     int lights = 0;      // the rig's lights repeated, turned about the subject, until there are so many
     int characters = 0;  // the scene's characters repeated, side by side, until there are so many
     bool operator==(const Setting&) const = default;

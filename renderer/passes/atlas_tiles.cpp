@@ -12,8 +12,8 @@ struct GrowPush {
 };
 
 void grow(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene, const AtlasTiles& tiles,
-          const GrowPush& push) {
-    const gpu::Program& program = device.program("tiles_grow.comp");
+          int taps, const GrowPush& push) {
+    const gpu::Program& program = device.program("tiles_grow.comp", {{2, static_cast<std::uint32_t>(taps)}});
     commands.dispatch(program,
                       {{"AtlasChartBuffer", tiles.charts},
                        {"AtlasTileBuffer", tiles.tiles},
@@ -115,18 +115,18 @@ void recordSeenTiles(gpu::Device& device, gpu::Commands& commands, const SceneBu
     listTiles(device, commands, tiles);
 }
 
-void recordNeededTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+void recordNeededTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene, int taps,
                        AtlasTiles& tiles) {
     const std::uint32_t coarsest = tiles.shifts.empty() ? 0 : tiles.shifts.back();
     if (coarsest > 0)
-        grow(device, commands, scene, tiles, {tiles.count, tiles.lookups(), 0, kNeighbours, coarsest, 0});
+        grow(device, commands, scene, tiles, taps, {tiles.count, tiles.lookups(), 0, kNeighbours, coarsest, 0});
     for (std::uint32_t level = tiles.levels(); level-- > 0;) {
         const std::uint32_t shift = tiles.shifts[level], finer = tiles.finerShift(level);
-        grow(device, commands, scene, tiles, {tiles.count, tiles.scratch(level), level, 1, shift, finer});
-        grow(device, commands, scene, tiles, {tiles.count, tiles.scratch(level) + 1, level, 0, shift, finer});
+        grow(device, commands, scene, tiles, taps, {tiles.count, tiles.scratch(level), level, 1, shift, finer});
+        grow(device, commands, scene, tiles, taps, {tiles.count, tiles.scratch(level) + 1, level, 0, shift, finer});
     }
     // Neighbours are all that bilinear lookups of probes reach.
-    grow(device, commands, scene, tiles, {tiles.count, tiles.probes(), 0, kNeighbours, 0, 0});
+    grow(device, commands, scene, tiles, taps, {tiles.count, tiles.probes(), 0, kNeighbours, 0, 0});
     listTiles(device, commands, tiles);
 }
 

@@ -52,8 +52,8 @@ AtlasTiles recordCoveredTiles(gpu::Device& device, gpu::Commands& commands, cons
 void recordSeenTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                      const gpu::Buffer& seenTriangles, AtlasTiles& tiles);
 
-// From what is seen and from entry points to all that is needed for it.
-void recordNeededTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+// From what is seen and from entry points to all that is needed for it. taps: as recordDiffusion has them.
+void recordNeededTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene, int taps,
                        AtlasTiles& tiles);
 
 // The bindings of lib/atlas_tiles.glsl beside those given.

@@ -74,7 +74,7 @@ DiffusionLevels makeLevels(gpu::Device& device, gpu::Commands& commands, int atl
 }
 
 void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
-                     const SurfaceImages& surface, const AtlasTiles& tiles, SkinLight& light) {
+                     const SurfaceImages& surface, const AtlasTiles& tiles, int taps, SkinLight& light) {
     light.levels = makeLevels(device, commands, surface.size, tiles);
     gpu::Image scratch, reduced;
     std::uint32_t scratchShift = ~0u;
@@ -96,7 +96,8 @@ void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBu
                           tiles, tiles.scratch(level) + 1, shift);
             source = reduced.view();
         }
-        const gpu::Program& program = device.program("diffusion.comp", {{0, shift}, {1, finer}});
+        const gpu::Program& program = device.program(
+            "diffusion.comp", {{0, shift}, {1, finer}, {2, static_cast<std::uint32_t>(taps)}});
         const gpu::ImageView steps[] = {source, scratch.view(), light.levels.view(level)};
         for (int axis = 0; axis < 2; ++axis) {
             dispatchTiles(commands, program,

@@ -19,9 +19,9 @@ void recordCoarseStretch(gpu::Device& device, gpu::Commands& commands, const Atl
                          SurfaceImages& surface);
 
 // Makes and fills light.levels: level k holds the irradiance blurred to variance v_k of each chart's own
-// profile.
+// profile. taps: on either side of a blur, at the most.
 void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
-                     const SurfaceImages& surface, const AtlasTiles& tiles, SkinLight& light);
+                     const SurfaceImages& surface, const AtlasTiles& tiles, int taps, SkinLight& light);
 
 // The empty levels of `tiles`.
 DiffusionLevels makeLevels(gpu::Device& device, gpu::Commands& commands, int atlasSize,

@@ -2,7 +2,7 @@
 #ifndef CUTIS_BLUR_REACH_GLSL
 #define CUTIS_BLUR_REACH_GLSL
 
-const int kMaxTaps = 12;   // on either side
+layout(constant_id = 2) const int MAX_TAPS = 12;  // on either side; where a Gaussian is wider, they lie farther apart
 const float kReach = 3.5;  // standard deviations
 // Variance, in texels², that bilinear lookup adds along each axis: ∫ f (1 - f) df.
 const float kLookupVariance = 1.0 / 6.0;
@@ -10,7 +10,7 @@ const float kLookupVariance = 1.0 / 6.0;
 // Of a kernel of standard deviation `sigma` over a source smooth over `smoothness`, both in texels and not below those of
 // any texel: with steps of s its last tap lies within kReach·σ + s, and with steps of one where that is rounded up.
 float kernelReach(float sigma, float smoothness) {
-    float step = max(max(floor(smoothness), 1.0), ceil(sigma * kReach / float(kMaxTaps)));
+    float step = max(max(floor(smoothness), 1.0), ceil(sigma * kReach / float(MAX_TAPS)));
     float reach = sigma * kReach;
     return step == 1.0 ? max(ceil(reach), 1.0) : floor(reach) + step;
 }

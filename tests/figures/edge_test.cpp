@@ -188,6 +188,20 @@ TEST(PublishedChain, HasTheVarianceOfItsListing) {
     }
 }
 
+// Fewer taps lie farther apart and keep the variance: the shape alone becomes coarser.
+TEST(Taps, KeepTheSecondMoment) {
+    RenderJob job = edgeJob(kMappings[0]);
+    const Curve all = columnMeans(renderAt(job, 0.1));
+    job.taps = 2;
+    const Curve few = columnMeans(renderAt(job, 0.1));
+    NormRatio change;
+    for (std::size_t i = 0; i < all.y.size(); ++i) change.add(few.y[i] - all.y[i], all.y[i]);
+    EXPECT_GT(change.value(), 1e-4) << "the setting reaches the blurs";
+    expectAtMost("2 taps: change of the edge", change.value(), 0.03);
+    expectAtMost("2 taps: second moment",
+                 std::abs(few.derivativeSecondMoment(10) / all.derivativeSecondMoment(10) - 1), 0.02);
+}
+
 std::string testName(const ::testing::TestParamInfo<std::tuple<int, double>>& instance) {
     const auto& [mapping, target] = instance.param;
     std::string name = kMappings[mapping].name;

@@ -16,10 +16,12 @@ namespace {
 struct Case {
     const char* name;
     bool lights, environment;
+    int taps = 0;  // as RenderJob has them
 };
 const Case kCases[] = {{"lights", true, false},
                        {"environment", false, true},
-                       {"lights_and_environment", true, true}};
+                       {"lights_and_environment", true, true},
+                       {"lights_and_two_taps", true, false, 2}};
 
 class HiddenSkin : public ::testing::TestWithParam<Case> {};
 
@@ -33,7 +35,7 @@ RenderJob hiddenJob(const Case& what) {
     builder.addObject("disc", makeSphere(20 * kMm, SphereMapping::latLong), builder.addMatte(),
                       glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0.1, 0}, {-0.02, -0.03, 0.14, 1}));
     builder.setOrthographicCamera({0.02, 0.05, 0.5}, {0, 0, 0}, 0.3);
-    RenderJob job{.scene = builder.scene(), .width = 150, .height = 130};
+    RenderJob job{.scene = builder.scene(), .width = 150, .height = 130, .taps = what.taps};
     if (what.lights) {
         job.lights = {directionalLight("behind", {-0.3, -0.1, 1}, 5),
                       rectLight("key", {0.3, 0.3, 0.4}, {-0.6, -0.6, -0.8}, 20, 0.1, 0.1, 6)};

@@ -28,7 +28,8 @@ TEST(Front, HoldsWhatAReportSays) {
                        .areaSamples = 3,
                        .environmentSamples = 0,
                        .merge = "opposite",
-                       .chain = "published"};
+                       .chain = "published",
+                       .taps = 6};
     std::vector<Measurement> rows = {row({.name = "default"}, 0.07, 40), row(rich, 0.02, 90),
                                      row({.name = "many", .lights = 8}, 0.01, 1),
                                      row({.name = "broken"}, 0, 0)};

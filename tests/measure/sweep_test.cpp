@@ -61,7 +61,7 @@ TEST_F(SweepFile, IsReadAndChecked) {
     says("{", "not JSON");
     says(R"({"cutis_sweep":2,"settings":[]})", "cutis_sweep");
     says(R"({"cutis_sweep":1,"settings":[]})", "settings");
-    says(R"({"cutis_sweep":1,"settings":[{"name":"a","taps":3}]})", "settings[0].taps");
+    says(R"({"cutis_sweep":1,"settings":[{"name":"a","taps":0}]})", "settings[0].taps");
     says(R"({"cutis_sweep":1,"settings":[{"name":"a","gaussians":0}]})", "settings[0].gaussians");
     says(R"({"cutis_sweep":1,"settings":[{"name":"a"},{"name":"a"}]})", "settings[1].name");
     says(R"({"cutis_sweep":1,"settings":[{"name":"a","merge":"max"}]})", "settings[0].merge");
@@ -79,11 +79,13 @@ TEST(Settings, ChangeQualityAndAreaLightsAlone) {
                   .gaussians = 2,
                   .lightMapSize = 256,
                   .areaSamples = 7,
-                  .environmentSamples = 3},
+                  .environmentSamples = 3,
+                  .taps = 5},
                  scene, rig, quality);
     EXPECT_EQ(quality.irradianceSize, 512);
     EXPECT_EQ(quality.gaussians, 2);
     EXPECT_EQ(quality.lightMapSize, 256);
+    EXPECT_EQ(quality.taps, 5);
     EXPECT_EQ(rig.lights[0].samples, 7);
     EXPECT_EQ(rig.lights[1].samples, 7);
     EXPECT_EQ(rig.lights[2].samples, 0);

@@ -226,6 +226,7 @@ Rendered render(const RenderJob& job) {
     if (!job.prune) arguments.push_back("--no-prune");
     if (!job.merge.empty()) arguments.insert(arguments.end(), {"--merge", job.merge});
     if (!job.chain.empty()) arguments.insert(arguments.end(), {"--chain", job.chain});
+    if (job.taps > 0) arguments.insert(arguments.end(), {"--taps", std::to_string(job.taps)});
     if (job.irradianceSize > 0)
         arguments.insert(arguments.end(), {"--irradiance-size", std::to_string(job.irradianceSize)});
     return runRender(folder, std::move(arguments), job.width, job.height, job.aovs);

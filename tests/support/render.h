@@ -55,6 +55,7 @@ struct RenderJob {
     bool prune = true;
     std::string merge = {};  // as --merge takes it; empty: the default
     std::string chain = {};  // as --chain takes it; empty: the default
+    int taps = 0;            // as --taps takes them; 0: the default
 };
 
 // What `--stats` says (DESIGN §2.1); reading it fails when one of its keys is missing.
