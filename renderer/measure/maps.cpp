@@ -11,8 +11,7 @@ void writeMap(const std::filesystem::path& file, const Picture& map, double whol
     static constexpr unsigned char kStops[][3] = {{0, 0, 0},      {70, 10, 90},   {180, 30, 60},
                                                   {240, 120, 10}, {255, 220, 80}, {255, 255, 255}};
     constexpr int kSteps = static_cast<int>(std::size(kStops)) - 1;
-    Pixels pixels;
-    pixels.width = map.width, pixels.height = map.height, pixels.channels = 3;
+    Pixels pixels{{map.width, map.height, 3}, {}};
     for (float value : map.values) {
         const double place = std::isfinite(value) ? std::clamp(value / whole, 0.0, 1.0) * kSteps : kSteps;
         const int step = std::min(static_cast<int>(place), kSteps - 1);

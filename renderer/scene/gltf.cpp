@@ -9,7 +9,7 @@
 #include "renderer/core/error.h"
 #include "renderer/scene/characters.h"
 #include "renderer/scene/gltf_parts.h"
-#include "renderer/scene/image_io.h"
+#include "renderer/scene/codec_client.h"
 
 namespace cutis {
 namespace {
@@ -88,7 +88,7 @@ void checkBounds(const Scene& scene) {
 
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
     gltf::Document document(path);
-    if (options.images && document.count("images") > 0) preloadImageIo();
+    if (options.images && document.count("images") > 0) startCodec();
     Scene scene;
     scene.file = path;
     scene.name = path.stem().string();

@@ -6,11 +6,10 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <string_view>
-#include <thread>
 
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
-#include "renderer/scene/codec_module.h"
+#include "renderer/scene/codec_client.h"
 
 namespace cutis {
 namespace {
@@ -36,13 +35,14 @@ ChannelMap mapChannels(int channels) {
     return {{0, 1, 2}, 3};
 }
 
-void fillRgba8(Image& image, const Pixels& pixels) {
-    const ChannelMap map = mapChannels(pixels.channels);
+void fillRgba8(Image& image, const CodecResult& pixels) {
+    const int channels = pixels.layout.channels;
+    const ChannelMap map = mapChannels(channels);
     const std::size_t texels = std::size_t(image.width) * image.height;
     image.texels.resize(texels * 4);
-    const auto* in = reinterpret_cast<const std::uint8_t*>(pixels.samples.data());
+    const auto* in = reinterpret_cast<const std::uint8_t*>(pixels.data.bytes().data());
     auto* out = reinterpret_cast<std::uint8_t*>(image.texels.data());
-    for (std::size_t i = 0; i < texels; ++i, in += pixels.channels, out += 4) {
+    for (std::size_t i = 0; i < texels; ++i, in += channels, out += 4) {
         for (int c = 0; c < 3; ++c) out[c] = in[map.rgb[c]];
         out[3] = map.alpha < 0 ? 255 : in[map.alpha];
         image.opaque &= out[3] == 255;
@@ -53,12 +53,13 @@ float storable(float value) {
     return std::isnan(value) ? 0.f : std::clamp(value, -kLargestHalf, kLargestHalf);
 }
 
-void fillRgba16f(Image& image, const Pixels& pixels) {
-    const ChannelMap map = mapChannels(pixels.channels);
+void fillRgba16f(Image& image, const CodecResult& pixels) {
+    const int channels = pixels.layout.channels;
+    const ChannelMap map = mapChannels(channels);
     const std::size_t texels = std::size_t(image.width) * image.height;
     image.texels.resize(texels * 8);
-    const auto* in = reinterpret_cast<const float*>(pixels.samples.data());
-    for (std::size_t i = 0; i < texels; ++i, in += pixels.channels) {
+    const auto* in = reinterpret_cast<const float*>(pixels.data.bytes().data());
+    for (std::size_t i = 0; i < texels; ++i, in += channels) {
         const glm::vec4 rgba(storable(in[map.rgb[0]]), storable(in[map.rgb[1]]), storable(in[map.rgb[2]]),
                              map.alpha < 0 ? 1.f : storable(in[map.alpha]));
         const std::uint64_t packed = glm::packHalf4x16(rgba);
@@ -108,17 +109,6 @@ void checkPng(std::span<const std::byte> file, const std::string& name) {
 
 }  // namespace
 
-void preloadImageIo() {
-    // Whoever needs the codec meanwhile waits for it there, and a failure is reported there. Static: a
-    // program that ends early must not unload what is still being loaded.
-    static const std::jthread loader([] {
-        try {
-            imageCodec();
-        } catch (const Error&) {
-        }
-    });
-}
-
 std::string imageFormat(std::span<const std::byte> file) {
     const std::string_view head(reinterpret_cast<const char*>(file.data()),
                                 std::min<std::size_t>(file.size(), 12));
@@ -139,21 +129,20 @@ Image decodeImage(std::span<const std::byte> file, const std::string& name, bool
     const std::string format = imageFormat(file);
     if (format.empty()) refuse(name, "not an image of a known format");
     if (format == "png") checkPng(file, name);
-    Pixels pixels;
-    const std::string why =
-        imageCodec().decodeMemory(file, format, {kMaxImageSize, kMaxImageSize, 4, kMaxImageBytes}, pixels);
-    if (!why.empty()) refuse(name, why);
+    const CodecResult pixels =
+        decodeImageMemory(file, format, {kMaxImageSize, kMaxImageSize, 4, kMaxImageBytes});
+    if (!pixels.why.empty()) refuse(name, pixels.why);
     Image image;
     image.name = name;
-    image.width = pixels.width;
-    image.height = pixels.height;
-    image.format = pixels.type == SampleType::uint8 ? TexelFormat::rgba8 : TexelFormat::rgba16f;
+    image.width = pixels.layout.width;
+    image.height = pixels.layout.height;
+    image.format = pixels.layout.type == SampleType::uint8 ? TexelFormat::rgba8 : TexelFormat::rgba16f;
     if (image.format == TexelFormat::rgba8) {
         fillRgba8(image, pixels);
     } else {
         fillRgba16f(image, pixels);
     }
-    if (floatFile) *floatFile = pixels.isFloat;
+    if (floatFile) *floatFile = pixels.layout.isFloat;
     return image;
 }
 
@@ -162,19 +151,16 @@ std::vector<std::byte> encodePng(const Image& image) {
     if (image.format != TexelFormat::rgba8 || image.texels.size() != texels * 4 || texels == 0) {
         throw Error("cannot write image", "only whole images of 8 bits can become PNG", image.name);
     }
-    Pixels pixels;
-    pixels.width = image.width;
-    pixels.height = image.height;
-    pixels.channels = image.opaque ? 3 : 4;
-    pixels.samples.reserve(texels * pixels.channels);
+    PixelLayout layout{image.width, image.height, image.opaque ? 3 : 4};
+    std::vector<std::byte> samples;
+    samples.reserve(layout.bytes());
     for (std::size_t i = 0; i < texels; ++i) {
         const auto texel = image.texels.begin() + std::ptrdiff_t(4 * i);
-        pixels.samples.insert(pixels.samples.end(), texel, texel + pixels.channels);
+        samples.insert(samples.end(), texel, texel + layout.channels);
     }
-    std::vector<std::byte> file;
-    const std::string why = imageCodec().encodePng(pixels, file);
-    if (!why.empty()) throw Error("cannot write image", why, image.name);
-    return file;
+    const CodecResult file = encodeImage("png", layout, samples);
+    if (!file.why.empty()) throw Error("cannot write image", file.why, image.name);
+    return {file.data.bytes().begin(), file.data.bytes().end()};
 }
 
 Picture readPixels(const std::filesystem::path& path, int maxWidth, int maxHeight, bool* integers) {
@@ -182,30 +168,31 @@ Picture readPixels(const std::filesystem::path& path, int maxWidth, int maxHeigh
     std::error_code error;
     if (!std::filesystem::exists(path, error)) refuse(name, "no such file");
     if (!std::filesystem::is_regular_file(path, error)) refuse(name, "not a regular file");
-    Pixels pixels;
-    const std::string why =
-        imageCodec().decodeFile(name, {maxWidth, maxHeight, kMaxChannels, kMaxPixelBytes}, pixels);
-    if (!why.empty()) refuse(name, why);
+    const CodecResult pixels = decodeImageFile(name, {maxWidth, maxHeight, kMaxChannels, kMaxPixelBytes});
+    if (!pixels.why.empty()) refuse(name, pixels.why);
+    const PixelLayout& layout = pixels.layout;
+    const std::span<const std::byte> samples = pixels.data.bytes();
     Picture picture;
-    picture.width = pixels.width;
-    picture.height = pixels.height;
-    picture.channels = pixels.channels;
-    picture.values.resize(std::size_t(pixels.width) * pixels.height * pixels.channels);
-    if (pixels.type == SampleType::float32) {
-        std::memcpy(picture.values.data(), pixels.samples.data(), pixels.samples.size());
+    picture.width = layout.width;
+    picture.height = layout.height;
+    picture.channels = layout.channels;
+    picture.values.resize(std::size_t(layout.width) * layout.height * layout.channels);
+    if (layout.type == SampleType::float32) {
+        std::memcpy(picture.values.data(), samples.data(), samples.size());
     } else {
-        std::ranges::transform(pixels.samples, picture.values.begin(),
+        std::ranges::transform(samples, picture.values.begin(),
                                [](std::byte b) { return float(std::to_integer<int>(b)) / 255; });
     }
-    if (integers) *integers = !pixels.isFloat;
+    if (integers) *integers = !layout.isFloat;
     return picture;
 }
 
 void writePixels(const std::filesystem::path& path, const Pixels& pixels) {
-    writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
-        const std::string why = imageCodec().writeFile(temporary.string(), pixels);
-        if (!why.empty()) throw Error("cannot write picture", why, path.string());
-    });
+    const std::string extension = path.extension().string();
+    const std::string format = extension.substr(std::min<std::size_t>(extension.size(), 1));
+    const CodecResult file = encodeImage(format, pixels.layout, pixels.samples);
+    if (!file.why.empty()) throw Error("cannot write picture", file.why, path.string());
+    writeFileAtomically(path, file.data.bytes());
 }
 
 }  // namespace cutis

@@ -1,4 +1,4 @@
-// Image files in memory and on disk, all through OpenImageIO (see codec/image_codec.h).
+// Image files in memory and on disk, all through OpenImageIO (see codec_client.h).
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,6 @@ namespace cutis {
 inline constexpr int kMaxImageSize = 16384;                          // texels along either side
 inline constexpr std::size_t kMaxImageBytes = std::size_t(1) << 30;  // of one image, decoded
 
-// Starts loading OpenImageIO in the background: a program that knows that it will need it calls this first
-// thing.
-void preloadImageIo();
-
 // A file's format by its first bytes as OpenImageIO names it ("png", "jpeg", "webp", …), empty when unknown.
 std::string imageFormat(std::span<const std::byte> file);
 
@@ -35,8 +31,14 @@ std::vector<std::byte> encodePng(const Image& image);
 // tells whether the file holds whole numbers. Throws Error; checks the limits before it decodes.
 Picture readPixels(const std::filesystem::path& path, int maxWidth, int maxHeight, bool* integers = nullptr);
 
-// Writes a file in the format of the extension: EXR as zip-compressed floats. Written atomically. Throws
-// Error.
+// Pixels in memory: interleaved channels, row 0 at the top.
+struct Pixels {
+    PixelLayout layout;
+    std::vector<std::byte> samples;
+};
+
+// Writes a file in the format of the extension: PNG, or EXR as zip-compressed floats. Written atomically.
+// Throws Error.
 void writePixels(const std::filesystem::path& path, const Pixels& pixels);
 
 }  // namespace cutis

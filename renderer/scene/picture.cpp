@@ -32,13 +32,9 @@ float finite(float value) {
     return std::isnan(value) ? 0.f : std::clamp(value, -kLargest, kLargest);
 }
 
-Pixels emptyPixels(const Picture& picture, int channels, SampleType type, std::size_t sampleBytes) {
-    Pixels pixels;
-    pixels.width = picture.width;
-    pixels.height = picture.height;
-    pixels.channels = channels;
-    pixels.type = type;
-    pixels.samples.resize(std::size_t(picture.width) * picture.height * channels * sampleBytes);
+Pixels emptyPixels(const Picture& picture, int channels, SampleType type) {
+    Pixels pixels{{picture.width, picture.height, channels, type}, {}};
+    pixels.samples.resize(pixels.layout.bytes());
     return pixels;
 }
 
@@ -46,7 +42,7 @@ Pixels emptyPixels(const Picture& picture, int channels, SampleType type, std::s
 
 void writeExr(const std::filesystem::path& path, const Picture& picture) {
     checkWhole(picture, path);
-    Pixels pixels = emptyPixels(picture, picture.channels, SampleType::float32, sizeof(float));
+    Pixels pixels = emptyPixels(picture, picture.channels, SampleType::float32);
     std::memcpy(pixels.samples.data(), picture.values.data(), pixels.samples.size());
     writePixels(path, pixels);
 }
@@ -55,7 +51,7 @@ void writePng(const std::filesystem::path& path, const Picture& linear, double e
     checkWhole(linear, path);
     const float gain = static_cast<float>(std::exp2(exposure));
     const int n = linear.channels;
-    Pixels pixels = emptyPixels(linear, 3, SampleType::uint8, 1);
+    Pixels pixels = emptyPixels(linear, 3, SampleType::uint8);
     parallelFor(std::size_t(linear.height), [&](std::size_t y) {
         for (std::size_t i = y * linear.width; i < (y + 1) * linear.width; ++i) {
             const float* in = linear.values.data() + i * n;

@@ -20,10 +20,8 @@ using nlohmann::json;
 template <typename T>
 void writeImage(const std::filesystem::path& path, const std::vector<T>& values) {
     Pixels pixels;
-    pixels.width = 4;
-    pixels.height = 2;
-    pixels.channels = int(values.size());
-    pixels.type = sizeof(T) == 1   ? SampleType::uint8
+    pixels.layout = {4, 2, int(values.size())};
+    pixels.layout.type = sizeof(T) == 1   ? SampleType::uint8
                   : sizeof(T) == 2 ? SampleType::uint16
                                    : SampleType::float32;
     const auto bytes = std::as_bytes(std::span(values));

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace cutis {
+namespace cutis::codec {
 namespace {
 
 OIIO::TypeDesc typeOf(SampleType type) {
@@ -32,24 +32,23 @@ OIIO::ImageSpec straightAlpha() {
     return config;
 }
 
-std::string readPixels(OIIO::ImageInput& input, const PixelLimits& limits, Pixels& pixels) {
+std::string readPixels(OIIO::ImageInput& input, const PixelLimits& limits, PixelLayout& pixels,
+                       const Allocate& allocate) {
     const OIIO::ImageSpec spec = input.spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
-    const bool eightBit = spec.format == OIIO::TypeDesc::UINT8;
     pixels.width = spec.width;
     pixels.height = spec.height;
     pixels.channels = std::min(spec.nchannels, limits.channels);
-    pixels.type = eightBit ? SampleType::uint8 : SampleType::float32;
+    pixels.type = spec.format == OIIO::TypeDesc::UINT8 ? SampleType::uint8 : SampleType::float32;
     pixels.isFloat = spec.format.is_floating_point();
-    const std::uint64_t bytes = std::uint64_t(spec.width) * std::uint64_t(spec.height) *
-                                std::uint64_t(pixels.channels) * (eightBit ? 1 : sizeof(float));
-    if (spec.width > limits.width || spec.height > limits.height || spec.depth > 1 || bytes > limits.bytes) {
+    if (spec.width > limits.width || spec.height > limits.height || spec.depth > 1 ||
+        pixels.bytes() > limits.bytes) {
         return "it has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
                " texels, the limit is " + std::to_string(limits.width) + " x " +
                std::to_string(limits.height) + " and " + std::to_string(limits.bytes >> 20) + " MiB decoded";
     }
-    pixels.samples.resize(bytes);
-    if (input.read_image(0, 0, 0, pixels.channels, typeOf(pixels.type), pixels.samples.data())) return {};
+    std::byte* samples = allocate(pixels.bytes());
+    if (input.read_image(0, 0, 0, pixels.channels, typeOf(pixels.type), samples)) return {};
     return orUnknown(input.geterror());
 }
 
@@ -58,35 +57,14 @@ template <typename Work>
 std::string guarded(const Work& work) {
     try {
         return work();
+    } catch (const std::bad_alloc&) {
+        return "it needs more memory than it may take";
     } catch (const std::exception& error) {
         return orUnknown(error.what());
     }
 }
 
-std::string decodeMemory(std::span<const std::byte> file, const std::string& format,
-                         const PixelLimits& limits, Pixels& pixels) {
-    return guarded([&]() -> std::string {
-        OIIO::Filesystem::IOMemReader reader(const_cast<std::byte*>(file.data()), file.size());
-        // ImageInput::open would look for a file of that name on disk.
-        const auto input = OIIO::ImageInput::create(format);
-        if (!input || !input->supports("ioproxy"))
-            return "OpenImageIO cannot read " + format + " from memory";
-        input->set_ioproxy(&reader);
-        OIIO::ImageSpec spec;
-        if (!input->open("image." + format, spec, straightAlpha())) return orUnknown(input->geterror());
-        return readPixels(*input, limits, pixels);
-    });
-}
-
-std::string decodeFile(const std::string& path, const PixelLimits& limits, Pixels& pixels) {
-    return guarded([&]() -> std::string {
-        const OIIO::ImageSpec config = straightAlpha();
-        const auto input = OIIO::ImageInput::open(path, &config);
-        return input ? readPixels(*input, limits, pixels) : orUnknown(OIIO::geterror());
-    });
-}
-
-OIIO::ImageSpec specOf(const Pixels& pixels) {
+OIIO::ImageSpec specOf(const PixelLayout& pixels) {
     OIIO::ImageSpec spec(pixels.width, pixels.height, pixels.channels, typeOf(pixels.type));
     if (pixels.channels <= 2) spec.channelnames = {"Y", "A"};
     spec.channelnames.resize(std::size_t(pixels.channels));
@@ -97,34 +75,41 @@ OIIO::ImageSpec specOf(const Pixels& pixels) {
     return spec;
 }
 
-std::string writePixels(OIIO::ImageOutput* output, const std::string& name, const Pixels& pixels) {
-    if (!output) return orUnknown(OIIO::geterror());
-    const bool written = output->open(name, specOf(pixels)) &&
-                         output->write_image(typeOf(pixels.type), pixels.samples.data()) && output->close();
-    return written ? std::string() : orUnknown(output->geterror());
-}
+}  // namespace
 
-std::string encodePng(const Pixels& pixels, std::vector<std::byte>& file) {
-    return guarded([&] {
-        std::vector<unsigned char> bytes;
-        OIIO::Filesystem::IOVecOutput sink(bytes);
-        const std::string why =
-            writePixels(OIIO::ImageOutput::create("image.png", &sink).get(), "image.png", pixels);
-        const auto view = std::as_bytes(std::span(bytes));
-        file.assign(view.begin(), view.end());
-        return why;
+std::string decodeMemory(std::span<const std::byte> file, const std::string& format,
+                         const PixelLimits& limits, PixelLayout& pixels, const Allocate& allocate) {
+    return guarded([&]() -> std::string {
+        OIIO::Filesystem::IOMemReader reader(const_cast<std::byte*>(file.data()), file.size());
+        // ImageInput::open would look for a file of that name on disk.
+        const auto input = OIIO::ImageInput::create(format);
+        if (!input || !input->supports("ioproxy"))
+            return "OpenImageIO cannot read " + format + " from memory";
+        input->set_ioproxy(&reader);
+        OIIO::ImageSpec spec;
+        if (!input->open("image." + format, spec, straightAlpha())) return orUnknown(input->geterror());
+        return readPixels(*input, limits, pixels, allocate);
     });
 }
 
-std::string writeFile(const std::string& path, const Pixels& pixels) {
-    return guarded([&] { return writePixels(OIIO::ImageOutput::create(path).get(), path, pixels); });
+std::string decodeFile(const std::string& path, const PixelLimits& limits, PixelLayout& pixels,
+                       const Allocate& allocate) {
+    return guarded([&]() -> std::string {
+        const OIIO::ImageSpec config = straightAlpha();
+        const auto input = OIIO::ImageInput::open(path, &config);
+        return input ? readPixels(*input, limits, pixels, allocate) : orUnknown(OIIO::geterror());
+    });
 }
 
-}  // namespace
-}  // namespace cutis
-
-const cutis::ImageCodec* cutisImageCodec() {
-    static const cutis::ImageCodec codec{cutis::decodeMemory, cutis::decodeFile, cutis::encodePng,
-                                         cutis::writeFile};
-    return &codec;
+std::string encode(const std::string& format, const PixelLayout& pixels, std::span<const std::byte> samples,
+                   const std::string& path) {
+    return guarded([&] {
+        const auto output = OIIO::ImageOutput::create(format);
+        if (!output) return orUnknown(OIIO::geterror());
+        const bool written = output->open(path, specOf(pixels)) &&
+                             output->write_image(typeOf(pixels.type), samples.data()) && output->close();
+        return written ? std::string() : orUnknown(output->geterror());
+    });
 }
+
+}  // namespace cutis::codec

@@ -1,0 +1,127 @@
+// What happens when the image library crashes, hangs or is killed: the file is refused, and the next one is
+// read.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <future>
+#include <thread>
+
+#include "renderer/core/error.h"
+#include "renderer/scene/codec_client.h"
+#include "renderer/scene/image_io.h"
+#include "tests/support/process.h"
+
+namespace cutis {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr PixelLimits kLimits{kMaxImageSize, kMaxImageSize, 4, kMaxImageBytes};
+
+std::vector<pid_t> childrenOf(pid_t parent) {
+    std::vector<pid_t> children;
+    for (const auto& task : fs::directory_iterator("/proc/" + std::to_string(parent) + "/task")) {
+        std::ifstream list(task.path() / "children");
+        for (pid_t child; list >> child;) {
+            // One that has ended and was not waited for yet has no program.
+            std::error_code error;
+            if (!fs::read_symlink("/proc/" + std::to_string(child) + "/exe", error).empty())
+                children.push_back(child);
+        }
+    }
+    return children;
+}
+
+pid_t codecProcess() {
+    for (const pid_t child : childrenOf(::getpid())) {
+        std::string name;
+        std::getline(std::ifstream("/proc/" + std::to_string(child) + "/comm"), name);
+        if (name == "cutis-codec") return child;
+    }
+    return 0;
+}
+
+// The processes that work for the codec once there are some, or none.
+std::vector<pid_t> awaitWorkers(bool some) {
+    for (int i = 0; i < 1000; ++i, std::this_thread::sleep_for(10ms)) {
+        const pid_t codec = codecProcess();
+        const std::vector<pid_t> workers = codec ? childrenOf(codec) : std::vector<pid_t>();
+        if (workers.empty() != some) return workers;
+    }
+    ADD_FAILURE() << (some ? "no process works on the image" : "a process works on without end");
+    return {};
+}
+
+std::vector<std::byte> smallPng() {
+    Image image;
+    image.width = image.height = 2;
+    image.texels.assign(16, std::byte(255));
+    return encodePng(image);
+}
+
+void expectWorks(const std::vector<std::byte>& png) {
+    const CodecResult result = decodeImageMemory(png, "png", kLimits);
+    EXPECT_EQ(result.why, "");
+    EXPECT_EQ(result.layout.width, 2);
+    EXPECT_EQ(result.data.bytes().size(), result.layout.bytes());
+}
+
+// A pipe into which nobody writes: whoever opens it waits.
+class WorkerEnds : public testing::TestWithParam<std::pair<int, const char*>> {};
+
+TEST_P(WorkerEnds, TheFileIsRefusedAndTheNextIsRead) {
+    const auto& [signal, why] = GetParam();
+    const std::vector<std::byte> png = smallPng();
+    const test::TemporaryFolder folder;
+    const std::string pipe = (folder / "waits.png").string();
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    awaitWorkers(false);  // the one that made the PNG
+    auto refused = std::async(std::launch::async, [&] { return decodeImageFile(pipe, kLimits); });
+    for (const pid_t worker : awaitWorkers(true)) ::kill(worker, signal);
+    const CodecResult result = refused.get();
+    EXPECT_NE(result.why.find(why), std::string::npos) << result.why;
+    EXPECT_TRUE(result.data.empty());
+    expectWorks(png);
+}
+
+INSTANTIATE_TEST_SUITE_P(Codec, WorkerEnds,
+                         testing::Values(std::pair{SIGSEGV, "the image library crashed (Segmentation fault)"},
+                                         std::pair{SIGABRT, "the image library crashed (Aborted)"},
+                                         std::pair{SIGALRM, "too long"}, std::pair{SIGXCPU, "too long"},
+                                         std::pair{SIGKILL, "too much time or memory"}));
+
+TEST(Codec, StartsAgainWhenItWasKilled) {
+    const std::vector<std::byte> png = smallPng();
+    const pid_t codec = codecProcess();
+    ASSERT_NE(codec, 0);
+    ::kill(codec, SIGKILL);
+    std::this_thread::sleep_for(50ms);
+    expectWorks(png);
+    EXPECT_NE(codecProcess(), codec);
+}
+
+TEST(Codec, ManyThreadsAtOnce) {
+    const std::vector<std::byte> png = smallPng();
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < 8; ++i) {
+        threads.emplace_back([&] {
+            for (int j = 0; j < 8; ++j) expectWorks(png);
+        });
+    }
+}
+
+TEST(Codec, LimitsHoldBeforeAnythingIsDecoded) {
+    const std::vector<std::byte> png = smallPng();
+    EXPECT_NE(decodeImageMemory(png, "png", {1, 2, 4, 1 << 20}).why, "");
+    EXPECT_NE(decodeImageMemory(png, "png", {2, 2, 4, 11}).why, "");
+    EXPECT_EQ(decodeImageMemory(png, "png", {2, 2, 4, 16}).why, "");
+    EXPECT_NE(decodeImageMemory(png, "no such format", kLimits).why, "");
+    EXPECT_THROW(decodeImageMemory(png, std::string(100, 'x'), kLimits), Error);
+}
+
+}  // namespace
+}  // namespace cutis
