@@ -254,7 +254,13 @@ void prepareScene(Scene& scene) {
 
 void computeBounds(Scene& scene) {
     scene.bounds = {};
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) scene.bounds.extend(boundsOf(scene, int(i), false));
+    for (Character& character : scene.characters) character.bounds = {};
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const Bounds bounds = boundsOf(scene, int(i), false);
+        scene.bounds.extend(bounds);
+        const int character = scene.characters.empty() ? -1 : scene.nodeCharacter[i];
+        if (character >= 0) scene.characters[character].bounds.extend(bounds);
+    }
 }
 
 void findCharacters(Scene& scene) {

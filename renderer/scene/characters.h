@@ -16,7 +16,7 @@ void prepareScene(Scene& scene);
 // Throws Error when the nodes are not a forest (a cycle, two parents, an index out of range).
 void updateWorldTransforms(Scene& scene);
 
-// Scene::bounds from world transforms.
+// Scene::bounds, and the bounds of the characters that were found, from world transforms.
 void computeBounds(Scene& scene);
 
 // Scene::characters and Scene::nodeCharacter. A character is a connected part of the node tree with skin:

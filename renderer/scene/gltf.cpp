@@ -8,8 +8,9 @@
 
 #include "renderer/core/error.h"
 #include "renderer/scene/characters.h"
-#include "renderer/scene/gltf_parts.h"
 #include "renderer/scene/codec_client.h"
+#include "renderer/scene/gltf_parts.h"
+#include "renderer/scene/pose.h"
 
 namespace cutis {
 namespace {
@@ -84,6 +85,16 @@ void checkBounds(const Scene& scene) {
     throw Error("cannot load scene", "its geometry reaches beyond 1e9 units", scene.file.string());
 }
 
+// For the layout of the atlas, which stays while the scene moves.
+void keepRestPositions(Scene& scene) {
+    if (scene.animations.empty()) return;
+    for (Mesh& mesh : scene.meshes) {
+        for (Primitive& p : mesh.primitives) {
+            if (p.deformation) p.restPositions = p.positions;
+        }
+    }
+}
+
 }  // namespace
 
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
@@ -96,13 +107,12 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
     const gltf::MaterialMap materials = gltf::readMaterials(document, scene);
     updateWorldTransforms(scene);
     gltf::readMeshes(document, nodes, materials, scene);
+    gltf::readAnimations(document, nodes, scene);
     checkExtent(scene);
-    computeBounds(scene);
+    poseScene(scene, kAtRest, 0);
+    keepRestPositions(scene);
     checkBounds(scene);
     if (options.images) gltf::readImages(document, materials.images, scene);
-    if (document.count("animations") > 0) {
-        warn("animations are not supported yet: the scene is shown as it rests, " + path.string());
-    }
     if (options.skin) {
         selectSkin(scene, *options.skin);
     } else {

@@ -15,8 +15,8 @@ struct GltfOptions {
     bool images = true;  // false: leave Scene::images without texels
 };
 
-// Loads the file's default scene: nodes, meshes, materials, images, cameras and lights, all checked, with
-// world transforms, bounds and characters filled in. Nothing outside the file's folder is read. Only what the
+// Loads the file's default scene: nodes, meshes, skins, animations, materials, images, cameras and lights, all checked,
+// at rest (see poseScene), with world transforms, bounds and characters filled in. Nothing outside the file's folder is read. Only what the
 // scene reaches is decoded. Missing normals are computed smooth over shared vertices (glTF asks for flat
 // ones: on skin facets are never what was meant); missing tangents are computed where a normal map wants
 // them. Throws Error naming the file and the JSON path, such as

@@ -213,6 +213,10 @@ std::vector<Vector> grouped(const std::vector<T>& values) {
 
 }  // namespace
 
+std::vector<float> readScalars(Document& document, const JsonView& reference) {
+    return readAccessor<float>(document, reference, {{"SCALAR", 1}}, 1, 0);
+}
+
 std::vector<glm::vec2> readVec2(Document& document, const JsonView& reference) {
     return grouped<glm::vec2>(readAccessor<float>(document, reference, {{"VEC2", 2}}, 2, 0));
 }

@@ -15,25 +15,39 @@ class MeshReader {
         : document_(document), nodes_(nodes), materials_(materials), scene_(scene) {}
 
     void run() {
-        std::map<int, int> sceneMesh;  // per mesh of the file without a skin
         for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
             Node& node = scene_.nodes[i];
             if (node.mesh == kNone) continue;
             const JsonView nodeEntry = document_.entry("nodes", std::size_t(nodes_.fileNode[i]));
             const JsonView meshEntry = document_.entry("meshes", std::size_t(node.mesh));
-            warnOfMorphs(nodeEntry, meshEntry);
-            if (const auto skin = nodeEntry.find("skin")) {
-                node.mesh = addMesh(meshEntry, readJointMatrices(*skin, node.world));
-                continue;
-            }
-            const auto [known, isNew] = sceneMesh.try_emplace(node.mesh, kNone);
-            if (isNew) known->second = addMesh(meshEntry, {});
-            node.mesh = known->second;
+            if (const auto skin = nodeEntry.find("skin")) node.skin = readSkin(*skin, node);
+            readWeights(nodeEntry, meshEntry, node);
+            node.mesh = meshFor(meshEntry, node);
         }
     }
 
   private:
-    int addMesh(const JsonView& entry, const JointMatrices& joints) {
+    // The mesh as it is read with a skin of that many joints. One that deforms is copied for every node after
+    // the first.
+    int meshFor(const JsonView& entry, const Node& node) {
+        const std::size_t joints = node.skin == kNone ? 0 : scene_.skins[node.skin].joints.size();
+        const auto [known, isNew] = known_.try_emplace({node.mesh, joints}, kNone);
+        if (isNew) return known->second = addMesh(entry, joints);
+        const Mesh& mesh = scene_.meshes[known->second];
+        if (std::ranges::none_of(mesh.primitives,
+                                 [](const Primitive& p) { return p.deformation != nullptr; }))
+            return known->second;
+        for (const Primitive& p : mesh.primitives) {
+            document_.spend(
+                p.positions.size() * (sizeof(glm::vec3) * 2 + sizeof(glm::vec4) * 2 + sizeof(glm::vec2) * 2) +
+                    p.indices.size() * sizeof(std::uint32_t),
+                entry);
+        }
+        scene_.meshes.push_back(Mesh(mesh));
+        return int(scene_.meshes.size()) - 1;
+    }
+
+    int addMesh(const JsonView& entry, std::size_t joints) {
         Mesh mesh;
         mesh.name = entry.string("name");
         for (const JsonView& primitive : entry.member("primitives").elements()) {
@@ -51,42 +65,58 @@ class MeshReader {
         return int(scene_.meshes.size()) - 1;
     }
 
-    // A skinned mesh ignores its node's transform: its joints place it in the world, and the inverse brings
-    // it back to the node, which keeps its place in the tree.
-    JointMatrices readJointMatrices(const JsonView& reference, const glm::dmat4& world) {
-        const JsonView skin = document_.resolve(reference, "skins");
-        const JsonView joints = skin.member("joints");
-        if (std::abs(glm::determinant(world)) < 1e-30)
+    int readSkin(const JsonView& reference, const Node& node) {
+        const std::size_t index = reference.index(document_.count("skins"), "skins");
+        if (std::abs(glm::determinant(node.world)) < 1e-30)
             reference.fail("its node is flattened by a scale of 0");
-        const glm::dmat4 toNode = glm::inverse(world);
-        std::vector<glm::mat4> inverseBind(joints.size(), glm::mat4(1));
-        if (const auto given = skin.find("inverseBindMatrices")) {
-            inverseBind = readMat4(document_, *given);
-            if (inverseBind.size() < joints.size()) given->fail("there are fewer matrices than joints");
+        const auto [known, isNew] = sceneSkin_.try_emplace(index, int(scene_.skins.size()));
+        if (!isNew) return known->second;
+        const JsonView entry = document_.entry("skins", index);
+        const JsonView joints = entry.member("joints");
+        if (joints.size() == 0) joints.fail("a skin has at least one joint");
+        if (const auto root = entry.find("skeleton")) root->index(nodes_.sceneNode.size(), "nodes");
+        Skin skin;
+        skin.name = entry.string("name");
+        for (const JsonView& joint : joints.elements()) {
+            skin.joints.push_back(nodes_.sceneNode[joint.index(nodes_.sceneNode.size(), "nodes")]);
+            if (skin.joints.back() == kNone) joint.fail("the joint is not in the scene");
         }
-        JointMatrices matrices;
-        for (std::size_t i = 0; i < joints.size(); ++i) {
-            const JsonView joint = joints.element(i);
-            const int node = nodes_.sceneNode[joint.index(nodes_.sceneNode.size(), "nodes")];
-            if (node == kNone) joint.fail("the joint is not in the scene");
-            matrices.push_back(toNode * scene_.nodes[node].world * glm::dmat4(inverseBind[i]));
+        skin.inverseBind.assign(skin.joints.size(), glm::dmat4(1));
+        if (const auto given = entry.find("inverseBindMatrices")) {
+            const std::vector<glm::mat4> matrices = readMat4(document_, *given);
+            if (matrices.size() < skin.joints.size()) given->fail("there are fewer matrices than joints");
+            for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+                skin.inverseBind[i] = glm::dmat4(matrices[i]);
+                for (int c = 0; c < 4; ++c) {
+                    for (int r = 0; r < 4; ++r) {
+                        if (!std::isfinite(matrices[i][c][r]))
+                            given->fail("matrix " + std::to_string(i) + " is not finite");
+                    }
+                }
+            }
         }
-        return matrices;
+        scene_.skins.push_back(std::move(skin));
+        return known->second;
     }
 
-    void warnOfMorphs(const JsonView& node, const JsonView& mesh) {
-        const auto onNode = node.find("weights");
-        const auto weights = onNode ? onNode : mesh.find("weights");
-        if (!weights) return;
-        if (std::ranges::any_of(weights->numbers(), [](double w) { return w != 0; })) {
-            warn("morph targets are not supported yet and left out, " + weights->where());
+    // The node's own, else the mesh's, else 0.
+    static void readWeights(const JsonView& node, const JsonView& mesh, Node& to) {
+        std::size_t targets = 0;
+        for (const JsonView& primitive : mesh.member("primitives").elements()) {
+            if (const auto list = primitive.find("targets")) targets = std::max(targets, list->size());
         }
+        const auto own = node.find("weights");
+        if (const auto weights = own ? own : mesh.find("weights")) to.weights = weights->numbers();
+        to.weights.resize(targets, 0.0);
     }
 
     Document& document_;
     const NodeMap& nodes_;
     const MaterialMap& materials_;
     Scene& scene_;
+    std::map<std::pair<int, std::size_t>, int>
+        known_;                             // mesh of the file and number of joints: mesh of the scene
+    std::map<std::size_t, int> sceneSkin_;  // per skin of the file
 };
 
 }  // namespace

@@ -41,19 +41,26 @@ struct MaterialMap {
 // Materials that the scene's meshes use, with textures; Scene::images gets empty entries.
 MaterialMap readMaterials(Document& document, Scene& scene);
 
-// --- gltf_meshes.cpp, gltf_primitive.cpp ---
+// --- gltf_meshes.cpp, gltf_primitive.cpp, gltf_deformation.cpp ---
 
-// Matrices that take a skinned mesh's vertices to its node's space, one per joint; empty without a skin.
-using JointMatrices = std::vector<glm::dmat4>;
-
-// Meshes that nodes use; a mesh with a skin becomes one of its own per node, in the pose that the nodes are
-// in. Node::mesh becomes an index into Scene::meshes. World transforms must be up to date.
+// Meshes and skins that nodes use; a mesh that deforms becomes one of its own per node. Node::mesh becomes an index into
+// Scene::meshes, Node::skin and Node::weights are filled in.
 void readMeshes(Document& document, const NodeMap& nodes, const MaterialMap& materials, Scene& scene);
 
-// One primitive, complete and checked; nothing when it has no triangles (points, lines, all degenerate).
-// `material` is what it is made of, to know whether it needs tangents.
-std::optional<Primitive> readPrimitive(Document& document, const JsonView& primitive,
-                                       const JointMatrices& joints, const Material& material);
+// One primitive, complete and checked, not posed yet; nothing when it has no triangles (points, lines, all degenerate).
+// `material` is what it is made of, to know whether it needs tangents; `joints` how many its skin has, 0 without one.
+std::optional<Primitive> readPrimitive(Document& document, const JsonView& primitive, std::size_t joints,
+                                       const Material& material);
+
+// Fills Primitive::deformation, where the primitive has morph targets, or joints while its skin has some. `vertices`
+// says which vertex of the file each vertex of the primitive is, `count` how many the file has.
+void readDeformation(Document& document, const JsonView& entry, std::size_t joints,
+                     const std::vector<std::uint32_t>& vertices, std::size_t count, Primitive& primitive);
+
+// --- gltf_animations.cpp ---
+
+// Animations of nodes of the scene, and Node::rest of those that they move. Meshes must have been read.
+void readAnimations(Document& document, const NodeMap& nodes, Scene& scene);
 
 // --- gltf_images.cpp ---
 

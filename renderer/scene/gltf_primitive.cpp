@@ -12,20 +12,6 @@ namespace {
 
 enum Mode : std::int64_t { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
 
-// The attribute's values; fails unless there are as many as positions.
-template <typename T>
-std::vector<T> readAttribute(Document& document, const JsonView& attributes, const char* name,
-                             std::size_t count, std::vector<T> (*read)(Document&, const JsonView&)) {
-    const auto reference = attributes.find(name);
-    if (!reference) return {};
-    std::vector<T> values = read(document, *reference);
-    if (values.size() != count) {
-        reference->fail("it has " + std::to_string(values.size()) + " elements for " + std::to_string(count) +
-                        " positions");
-    }
-    return values;
-}
-
 std::vector<std::uint32_t> readVertexOrder(Document& document, const JsonView& primitive,
                                            std::size_t vertices) {
     const auto reference = primitive.find("indices");
@@ -65,50 +51,6 @@ std::vector<std::uint32_t> toTriangles(Document& document, const JsonView& primi
         }
     }
     return triangles;
-}
-
-// Puts vertices where the joints hold them (glTF 2.0, §3.7.3.3).
-void applyJoints(Document& document, const JsonView& attributes, const JointMatrices& joints, Primitive& p) {
-    const std::size_t count = p.positions.size();
-    std::vector<glm::dmat4> blended(count, glm::dmat4(0));
-    std::vector<double> total(count, 0);
-    for (int set = 0;; ++set) {
-        const std::string jointsName = "JOINTS_" + std::to_string(set),
-                          weightsName = "WEIGHTS_" + std::to_string(set);
-        const auto reference = attributes.find(jointsName.c_str());
-        if (!reference) break;
-        document.spend(count * sizeof(glm::dmat4), *reference);
-        const auto indices = readAttribute(document, attributes, jointsName.c_str(), count, readJoints);
-        const auto weights = readAttribute(document, attributes, weightsName.c_str(), count, readVec4);
-        if (weights.empty()) reference->fail(weightsName + " is missing");
-        for (std::size_t i = 0; i < count; ++i) {
-            for (int k = 0; k < 4; ++k) {
-                if (!(weights[i][k] > 0) || !std::isfinite(weights[i][k])) continue;
-                if (indices[i][k] >= joints.size()) {
-                    reference->fail("joint " + std::to_string(indices[i][k]) + " of " +
-                                    std::to_string(joints.size()));
-                }
-                blended[i] += joints[indices[i][k]] * double(weights[i][k]);
-                total[i] += weights[i][k];
-            }
-        }
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        if (total[i] <= 0) continue;
-        const glm::dmat4 m = blended[i] / total[i];
-        p.positions[i] = glm::vec3(m * glm::dvec4(p.positions[i], 1));
-        const glm::dmat3 directions(m);
-        if (!p.normals.empty()) {
-            // The cofactor matrix: the inverse transpose up to a factor, and defined for flattened bones too.
-            const glm::dmat3 cofactor(glm::cross(directions[1], directions[2]),
-                                      glm::cross(directions[2], directions[0]),
-                                      glm::cross(directions[0], directions[1]));
-            p.normals[i] = glm::vec3(cofactor * glm::dvec3(p.normals[i]));
-        }
-        if (!p.tangents.empty()) {
-            p.tangents[i] = glm::vec4(glm::vec3(directions * glm::dvec3(p.tangents[i])), p.tangents[i].w);
-        }
-    }
 }
 
 // Unit tangents with a sign, or none at all when one of them is unusable: they are then computed.
@@ -156,8 +98,8 @@ void warnOfRepairs(const JsonView& primitive, const RepairCounts& dropped, std::
 
 }  // namespace
 
-std::optional<Primitive> readPrimitive(Document& document, const JsonView& primitive,
-                                       const JointMatrices& joints, const Material& material) {
+std::optional<Primitive> readPrimitive(Document& document, const JsonView& primitive, std::size_t joints,
+                                       const Material& material) {
     std::int64_t mode = kTriangles;
     if (const auto value = primitive.find("mode")) {
         mode = value->integer();
@@ -184,10 +126,10 @@ std::optional<Primitive> readPrimitive(Document& document, const JsonView& primi
     p.uv1 = readAttribute(document, attributes, "TEXCOORD_1", count, readVec2);
     p.colors = readAttribute(document, attributes, "COLOR_0", count, readVertexColors);
     p.indices = toTriangles(document, primitive, readVertexOrder(document, primitive, count), mode);
-    if (!joints.empty()) applyJoints(document, attributes, joints, p);
 
-    const RepairCounts dropped = dropBadTriangles(p);
-    dropUnusedVertices(p);
+    const bool smooth = primitive.find("indices").has_value();
+    const RepairCounts dropped = dropBadTriangles(p, primitive.find("targets").has_value());
+    std::vector<std::uint32_t> vertices = dropUnusedVertices(p);
     const std::size_t replaced =
         replaceNonfinite(p.uv0, 0) + replaceNonfinite(p.uv1, 0) + replaceNonfinite(p.colors, 1);
     warnOfRepairs(primitive, dropped, replaced);
@@ -195,9 +137,13 @@ std::optional<Primitive> readPrimitive(Document& document, const JsonView& primi
         warn("a primitive without a triangle of any area is left out, " + primitive.where());
         return std::nullopt;
     }
-    completeNormals(p, primitive.find("indices").has_value());
+    completeNormals(p, smooth);
     checkTangents(p);
-    if (material.normalTexture && p.tangents.empty()) computeTangents(p, material.normalTexture);
+    if (material.normalTexture && p.tangents.empty()) {
+        for (const std::uint32_t original : computeTangents(p, material.normalTexture))
+            vertices.push_back(vertices[original]);
+    }
+    readDeformation(document, primitive, joints, vertices, count, p);
     return p;
 }
 

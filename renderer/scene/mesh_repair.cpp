@@ -35,6 +35,10 @@ glm::dvec3 areaVector(const Primitive& p, std::size_t first) {
                       glm::dvec3(p.positions[p.indices[first + 2]]) - a);
 }
 
+bool areThree(const std::array<std::uint32_t, 3>& corners) {
+    return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
+}
+
 glm::vec3 anyPerpendicular(const glm::vec3& n) {
     const glm::vec3 aside = std::abs(n.x) < 0.8f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
     return glm::normalize(aside - n * glm::dot(n, aside));
@@ -67,7 +71,9 @@ template <typename Place>
 std::vector<glm::dvec3> sumNormals(const Primitive& p, const Place& place) {
     std::vector<glm::dvec3> sums(p.positions.size(), glm::dvec3(0));
     for (std::size_t t = 0; t < p.indices.size(); t += 3) {
-        const glm::dvec3 normal = glm::normalize(areaVector(p, t));
+        const glm::dvec3 area = areaVector(p, t);
+        if (!(glm::dot(area, area) > 0)) continue;
+        const glm::dvec3 normal = glm::normalize(area);
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t i = p.indices[t + k];
             sums[place(i)] += normal * double(angleAt(p.positions[i], p.positions[p.indices[t + (k + 1) % 3]],
@@ -96,14 +102,15 @@ TriangleFrame frameOf(const std::array<glm::vec3, 3>& p, const std::array<glm::d
 
 }  // namespace
 
-RepairCounts dropBadTriangles(Primitive& p) {
+RepairCounts dropBadTriangles(Primitive& p, bool keepFlat) {
     RepairCounts counts;
     std::size_t kept = 0;
     for (std::size_t t = 0; t + 2 < p.indices.size(); t += 3) {
         const std::array<std::uint32_t, 3> corner{p.indices[t], p.indices[t + 1], p.indices[t + 2]};
         if (!std::ranges::all_of(corner, [&](std::uint32_t i) { return isFinite(p.positions[i]); })) {
             ++counts.nonfinite;
-        } else if (const glm::dvec3 area = areaVector(p, t); !(glm::dot(area, area) > 0)) {
+        } else if (const glm::dvec3 area = areaVector(p, t);
+                   !(glm::dot(area, area) > 0) && !(keepFlat && areThree(corner))) {
             ++counts.degenerate;
         } else {
             std::copy(corner.begin(), corner.end(), p.indices.begin() + std::ptrdiff_t(kept));
@@ -114,22 +121,22 @@ RepairCounts dropBadTriangles(Primitive& p) {
     return counts;
 }
 
-void dropUnusedVertices(Primitive& p) {
+std::vector<std::uint32_t> dropUnusedVertices(Primitive& p) {
     constexpr std::uint32_t kUnused = ~0u;
-    std::vector<std::uint32_t> place(p.positions.size(), kUnused);
+    std::vector<std::uint32_t> place(p.positions.size(), kUnused), kept;
     for (const std::uint32_t i : p.indices) place[i] = 0;
-    std::uint32_t kept = 0;
-    for (std::uint32_t& i : place) {
-        if (i != kUnused) i = kept++;
+    for (std::uint32_t i = 0; i < place.size(); ++i) {
+        if (place[i] == kUnused) continue;
+        place[i] = std::uint32_t(kept.size());
+        kept.push_back(i);
     }
-    if (kept == p.positions.size()) return;
+    if (kept.size() == p.positions.size()) return kept;
     forAttributes(p, [&](auto& values) {
-        for (std::size_t i = 0; i < place.size(); ++i) {
-            if (place[i] != kUnused) values[place[i]] = values[i];
-        }
-        values.resize(kept);
+        for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
+        values.resize(kept.size());
     });
     for (std::uint32_t& i : p.indices) i = place[i];
+    return kept;
 }
 
 void completeNormals(Primitive& p, bool smooth) {
@@ -157,7 +164,7 @@ void completeNormals(Primitive& p, bool smooth) {
     }
 }
 
-void computeTangents(Primitive& p, const TextureSlot& slot) {
+std::vector<std::uint32_t> computeTangents(Primitive& p, const TextureSlot& slot) {
     const std::vector<glm::vec2>& uv = slot.texCoord == 1 ? p.uv1 : p.uv0;
     const glm::dmat3 transform(slot.transform);
     const auto uvAt = [&](std::uint32_t i) {
@@ -211,6 +218,7 @@ void computeTangents(Primitive& p, const TextureSlot& slot) {
             length > 1e-4f * glm::length(sums[i]) && length > 0 ? flat / length : anyPerpendicular(n);
         p.tangents[i] = glm::vec4(tangent, sign[i] == 0 ? 1.f : sign[i]);
     }
+    return copyOf;
 }
 
 }  // namespace cutis

@@ -9,11 +9,13 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/scene/light.h"
+#include "renderer/scene/motion.h"
 #include "renderer/skin/profile.h"
 
 namespace cutis {
@@ -87,7 +89,7 @@ struct Material {
     std::optional<SkinMaterial> skin;
 };
 
-// Triangles of one material. Arrays have one element a vertex, or none where noted.
+// Triangles of one material, in the pose that the scene is in. Arrays have one element a vertex, or none where noted.
 struct Primitive {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;   // always present and of unit length: computed when the file has none
@@ -96,8 +98,11 @@ struct Primitive {
     std::vector<glm::vec4> colors;    // linear RGBA; may be empty
     std::vector<std::uint32_t> indices;  // three a triangle; degenerate and out-of-range triangles are gone
     int material = -1;                   // index into Scene::materials, always valid (a default one is added)
+    std::shared_ptr<const Deformation> deformation;  // what poseScene computes its vertices from; null: it is rigid
+    std::vector<glm::vec3> restPositions;  // in the pose at rest; empty where they never differ from `positions`
 };
 
+// A mesh with a deformation is that of one node alone.
 struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
@@ -110,6 +115,9 @@ struct Node {
     glm::dmat4 local{1};
     glm::dmat4 world{1};  // filled by updateWorldTransforms
     int mesh = -1, camera = -1, light = -1;
+    int skin = -1;                  // index into Scene::skins, of the mesh
+    std::vector<double> weights;    // of the mesh's morph targets, at rest
+    std::optional<Transform> rest;  // `local` at rest, of a node that some animation moves
 };
 
 struct Camera {
@@ -150,6 +158,8 @@ struct Scene {
     std::vector<Node> nodes;
     std::vector<Camera> cameras;  // in node order, world transforms resolved
     std::vector<Light> lights;    // KHR_lights_punctual, world placement resolved
+    std::vector<Skin> skins;
+    std::vector<Animation> animations;
     std::vector<Character> characters;
     std::vector<int> nodeCharacter;  // per node: index into characters, or -1
     Bounds bounds;                   // world, of all meshes
