@@ -11,17 +11,29 @@
 namespace cutis {
 namespace {
 
-// Light maps are as fine as the picture asks (a texel is one to two pixels), whatever their number: a light casts the same
-// shadow alone and among many. Only beyond this much memory do they become coarser.
+// Light maps are as fine as the picture asks (a texel is one to two pixels), whatever their number: a light
+// casts the same shadow alone and among many. Only beyond this much memory do they become coarser.
 constexpr std::uint64_t kLightMapBytes = std::uint64_t(2) << 30;
 constexpr int kLargestLightMap = 4096, kFinestUsefulLightMap = 1024, kSmallestLightMap = 128;
 
-// Texels a little finer than the pixels where the character stands; never finer than the narrowest blur of skin.
-// A character that the picture does not show needs hardly any.
-double wantedMmPerTexel(double metresPerPixel, bool inView) {
+// Texels a little finer than the pixels where the character stands; never finer than the narrowest blur of
+// skin. A character that the picture does not show needs hardly any.
+double wantedMmPerTexel(double mmPerPixel, bool inView) {
     constexpr double kFinest = 0.08, kOutOfView = 10;
     if (!inView) return kOutOfView;
-    return std::max(kFinest, 0.9 * metresPerPixel * 1000);
+    return std::max(kFinest, 0.9 * mmPerPixel);
+}
+
+// Of each character's skin; the finest where it has several.
+std::vector<double> mmPerUnitOf(const Scene& scene, const Geometry& geometry) {
+    std::vector<double> mmPerUnit(scene.characters.size(), 0);
+    for (const GeometryDraw& draw : geometry.draws) {
+        if (!draw.skin) continue;
+        double& mm = mmPerUnit[draw.character];
+        const double own = scene.materials[draw.material].skin->mmPerUnit;
+        mm = mm == 0 ? own : std::min(mm, own);
+    }
+    return mmPerUnit;
 }
 
 bool near(double kept, double wanted) {
@@ -33,21 +45,29 @@ bool near(double kept, double wanted) {
 void chooseDetail(FrameContext& frame) {
     const RenderSettings& settings = *frame.settings;
     const ViewCameraMetrics metrics(frame.input->camera, {settings.width, settings.height});
+    const std::vector<double> mmPerUnit = mmPerUnitOf(*frame.input->scene, frame.geometry);
     Detail wanted;
-    for (const Character& character : frame.input->scene->characters) {
+    for (std::size_t c = 0; c < mmPerUnit.size(); ++c) {
+        const Character& character = frame.input->scene->characters[c];
         const glm::dvec3 centre = character.bounds.centre();
-        const glm::vec3 low(character.bounds.min - frame.geometry.origin), high(character.bounds.max - frame.geometry.origin);
+        const glm::vec3 low(character.bounds.min - frame.geometry.origin),
+            high(character.bounds.max - frame.geometry.origin);
         const bool inView = frame.anyView || reaches(frame.camera.worldToClip, low, high);
-        const double metres = (frame.anyView ? metrics.metresPerPixelAtDistance(centre) : metrics.metresPerPixel(centre)) /
-                              settings.detail;
-        wanted.mmPerTexel.push_back(wantedMmPerTexel(metres, inView));
-        if (inView) wanted.pixelsAcross = std::max(wanted.pixelsAcross, glm::length(character.bounds.size()) / metres);
+        const double metres =
+            (frame.anyView ? metrics.metresPerPixelAtDistance(centre) : metrics.metresPerPixel(centre)) /
+            settings.detail;
+        wanted.mmPerTexel.push_back(wantedMmPerTexel(metres * mmPerUnit[c], inView));
+        if (inView)
+            wanted.pixelsAcross =
+                std::max(wanted.pixelsAcross, glm::length(character.bounds.size()) / metres);
     }
     Detail& kept = frame.detail;
-    const bool layoutStands = frame.anyView && kept.mmPerTexel.size() == wanted.mmPerTexel.size() &&
-                              std::equal(kept.mmPerTexel.begin(), kept.mmPerTexel.end(), wanted.mmPerTexel.begin(), near);
+    const bool layoutStands =
+        frame.anyView && kept.mmPerTexel.size() == wanted.mmPerTexel.size() &&
+        std::equal(kept.mmPerTexel.begin(), kept.mmPerTexel.end(), wanted.mmPerTexel.begin(), near);
     if (!layoutStands) kept.mmPerTexel = wanted.mmPerTexel;
-    if (!frame.anyView || !near(kept.pixelsAcross, wanted.pixelsAcross)) kept.pixelsAcross = wanted.pixelsAcross;
+    if (!frame.anyView || !near(kept.pixelsAcross, wanted.pixelsAcross))
+        kept.pixelsAcross = wanted.pixelsAcross;
 }
 
 void chooseLightMapSize(FrameContext& frame, std::size_t maps) {
@@ -56,8 +76,10 @@ void chooseLightMapSize(FrameContext& frame, std::size_t maps) {
         return;
     }
     const std::uint64_t texelBytes = frame.needs[Need::translucency] ? 8 : 4;
-    const auto wanted = static_cast<unsigned>(std::clamp<double>(frame.detail.pixelsAcross, 1, kLargestLightMap));
-    int size = std::clamp(static_cast<int>(std::bit_ceil(wanted)) / 2, kFinestUsefulLightMap, kLargestLightMap);
+    const auto wanted =
+        static_cast<unsigned>(std::clamp<double>(frame.detail.pixelsAcross, 1, kLargestLightMap));
+    int size =
+        std::clamp(static_cast<int>(std::bit_ceil(wanted)) / 2, kFinestUsefulLightMap, kLargestLightMap);
     while (size > kSmallestLightMap && maps * texelBytes * size * size > kLightMapBytes) size /= 2;
     frame.detail.lightMapSize = size;
 }

@@ -65,6 +65,28 @@ void sanitizeEnvironment(Environment& environment) {
     if (!mended.empty()) warn("environment " + environment.name + ": " + mended);
 }
 
+namespace {
+
+// Light is taken from texel to texel as a point of its centre (samples, clusters), which is right only while
+// texels are small: those of a coarser environment are each split into even parts.
+void splitLargeTexels(Environment& environment) {
+    constexpr int kWidth = 64, kHeight = 32;
+    const int across = (kWidth + environment.width - 1) / environment.width;
+    const int down = (kHeight + environment.height - 1) / environment.height;
+    if (across == 1 && down == 1) return;
+    const std::vector<glm::vec3> coarse = std::move(environment.radiance);
+    const int coarseWidth = environment.width;
+    environment.width *= across;
+    environment.height *= down;
+    environment.radiance.resize(std::size_t(environment.width) * environment.height);
+    for (int y = 0; y < environment.height; ++y)
+        for (int x = 0; x < environment.width; ++x)
+            environment.radiance[std::size_t(y) * environment.width + x] =
+                coarse[std::size_t(y / down) * coarseWidth + x / across];
+}
+
+}  // namespace
+
 Environment loadEnvironment(const std::filesystem::path& path) {
     bool integers = false;
     const Picture picture = readPixels(path, kMaxEnvironmentWidth, kMaxEnvironmentHeight, &integers);
@@ -83,6 +105,7 @@ Environment loadEnvironment(const std::filesystem::path& path) {
         }
     });
     sanitizeEnvironment(environment);
+    splitLargeTexels(environment);
     return environment;
 }
 

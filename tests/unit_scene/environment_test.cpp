@@ -21,18 +21,33 @@ Picture makePicture(int width, int height, int channels, float value) {
 
 TEST(Environment, RowsStartAtTheTop) {
     const test::TemporaryFolder folder;
-    Picture picture = makePicture(3, 2, 3, 0);
-    for (int i = 0; i < 18; ++i) picture.values[i] = float(i * 100);
+    Picture picture = makePicture(80, 40, 3, 0);
+    for (int i = 0; i < 3 * 80 * 40; ++i) picture.values[i] = float(i);
     writeExr(folder / "sky.exr", picture);
     const test::CapturedWarnings warnings;
     const Environment environment = loadEnvironment(folder / "sky.exr");
     EXPECT_EQ(environment.name, "sky.exr");
-    EXPECT_EQ(environment.width, 3);
-    EXPECT_EQ(environment.height, 2);
-    ASSERT_EQ(environment.radiance.size(), 6u);
-    EXPECT_EQ(environment.radiance[0], glm::vec3(0, 100, 200));
-    EXPECT_EQ(environment.radiance[5], glm::vec3(1500, 1600, 1700));
+    EXPECT_EQ(environment.width, 80);
+    EXPECT_EQ(environment.height, 40);
+    ASSERT_EQ(environment.radiance.size(), 3200u);
+    EXPECT_EQ(environment.radiance[0], glm::vec3(0, 1, 2));
+    EXPECT_EQ(environment.radiance[3199], glm::vec3(9597, 9598, 9599));
     EXPECT_TRUE(warnings.all().empty());
+}
+
+TEST(Environment, LargeTexelsAreSplitEvenly) {
+    const test::TemporaryFolder folder;
+    Picture picture = makePicture(3, 2, 3, 0);
+    for (int i = 0; i < 18; ++i) picture.values[i] = float(i);
+    writeExr(folder / "sky.exr", picture);
+    const Environment environment = loadEnvironment(folder / "sky.exr");
+    ASSERT_EQ(environment.width, 66);
+    ASSERT_EQ(environment.height, 32);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 66; ++x) {
+            const float first = float(3 * (y / 16 * 3 + x / 22));
+            ASSERT_EQ(environment.radiance[y * 66 + x], glm::vec3(first, first + 1, first + 2));
+        }
 }
 
 TEST(Environment, IsSanitizedWithOneWarning) {
@@ -43,8 +58,13 @@ TEST(Environment, IsSanitizedWithOneWarning) {
     writeExr(folder / "bad.exr", picture);
     const test::CapturedWarnings warnings;
     const Environment environment = loadEnvironment(folder / "bad.exr");
-    const std::vector<glm::vec3> expected{{0, 1, 2}, {0, 0, 5}, {33952, 33952, 33952}, {0, 0, 0}};
-    EXPECT_EQ(environment.radiance, expected);
+    const auto quarter = [&](int x, int y) {  // of the file's 2 x 2 texels
+        return environment.radiance[y * environment.height / 2 * environment.width + x * environment.width / 2];
+    };
+    EXPECT_EQ(quarter(0, 0), glm::vec3(0, 1, 2));
+    EXPECT_EQ(quarter(1, 0), glm::vec3(0, 0, 5));
+    EXPECT_EQ(quarter(0, 1), glm::vec3(33952));
+    EXPECT_EQ(quarter(1, 1), glm::vec3(0));
     ASSERT_EQ(warnings.all().size(), 1u);
     EXPECT_EQ(warnings.count(
                   "bad.exr: 2 NaN values become 0, 2 negative values become 0, 2 infinite values become the "

@@ -1,0 +1,190 @@
+// Bodies, their texture coordinates and their place in the world at and beyond their ends.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "extreme.h"
+
+namespace cutis::test {
+namespace {
+
+constexpr double kFurnace = 0.03;  // of these coarse pictures; tests/figures holds finer ones to 0.01
+
+Light key() {
+    return directionalLight("key", {0.5, -0.5, -1}, 1);
+}
+
+Primitive sphere() {
+    return makeSphere(100 * kMm, SphereMapping::latLong);
+}
+
+// The body in a uniform environment of radiance 1.
+Extreme body(const std::string& name, const std::function<Primitive()>& mesh,
+             Bounds3 bounds = Bounds3::atMost(1 + kFurnace)) {
+    return {name,
+            [=] {
+                SceneBuilder builder;
+                builder.addObject("body", mesh(), builder.addSkin(SceneBuilder::plainSkin()));
+                return inUniformLight(pictureOf(builder));
+            },
+            bounds};
+}
+
+std::vector<Extreme> thicknesses() {
+    std::vector<Extreme> cases;
+    for (const double metres : {0.0, 1e-6, 1e-4, 1e-3, 1.0}) {
+        // Two plates back to back, lit from behind: no more can come through than falls on.
+        cases.push_back(
+            {"slab_of_1e" + std::to_string(metres > 0 ? std::lround(std::log10(metres)) + 6 : -0) +
+                 (metres > 0 ? "_micrometres" : "_thickness"),
+             [metres] {
+                 SceneBuilder builder;
+                 Primitive front = makePlate(0.15), back = makePlate(0.15);
+                 for (glm::vec3& p : back.positions) p = {-p.x, p.y, static_cast<float>(-metres)};
+                 for (glm::vec3& n : back.normals) n = {0, 0, -1};
+                 const int skin = builder.addSkin(SceneBuilder::plainSkin());
+                 const auto count = static_cast<std::uint32_t>(front.positions.size());
+                 front.positions.insert(front.positions.end(), back.positions.begin(), back.positions.end());
+                 front.normals.insert(front.normals.end(), back.normals.begin(), back.normals.end());
+                 for (glm::vec2& uv : front.uv0) uv.x *= 0.5f;
+                 for (const glm::vec2& uv : back.uv0) front.uv0.push_back({0.5f + 0.5f * uv.x, uv.y});
+                 for (const std::uint32_t i : back.indices) front.indices.push_back(count + i);
+                 builder.addObject("slab", front, skin);
+                 return inLight(pictureOf(builder), {directionalLight("behind", {0, 0, 1}, 1)});
+             },
+             Bounds3::atMost(1 / 3.14159 + 1e-3)});
+    }
+    return cases;
+}
+
+std::vector<Extreme> meshes() {
+    return {body("inside_out",
+                 [] {
+                     Primitive mesh = sphere();
+                     for (glm::vec3& n : mesh.normals) n = -n;
+                     for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+                         std::swap(mesh.indices[i], mesh.indices[i + 1]);
+                     return mesh;
+                 }),
+            body("open",
+                 [] {
+                     Primitive mesh = sphere();
+                     mesh.indices.resize(mesh.indices.size() / 6 * 3);
+                     return mesh;
+                 }),
+            body("each_triangle_twice",
+                 [] {
+                     Primitive mesh = sphere();
+                     const std::vector<std::uint32_t> once = mesh.indices;
+                     mesh.indices.insert(mesh.indices.end(), once.begin(), once.end());
+                     return mesh;
+                 }),
+            body(
+                "three_vertices",
+                [] {
+                    Primitive mesh;
+                    mesh.positions = {{-0.1f, -0.1f, 0}, {0.1f, -0.1f, 0}, {0, 0.1f, 0}};
+                    mesh.normals.assign(3, {0, 0, 1});
+                    mesh.uv0 = {{0, 1}, {1, 1}, {0.5f, 0}};
+                    mesh.indices = {0, 1, 2};
+                    return mesh;
+                },
+                Bounds3::near(1, kFurnace)),
+            {"one_inside_another",
+             [] {
+                 SceneBuilder builder;
+                 const int skin = builder.addSkin(SceneBuilder::plainSkin());
+                 builder.addObject("outer", sphere(), skin);
+                 builder.addObject("inner", makeSphere(50 * kMm, SphereMapping::latLong), skin);
+                 return inLight(inUniformLight(pictureOf(builder)), {key()});
+             },
+             Bounds3::atMost(1.4)},
+            {"two_that_cross",
+             [] {
+                 SceneBuilder builder;
+                 const int skin = builder.addSkin(SceneBuilder::plainSkin());
+                 builder.addObject("left", sphere(), skin, glm::translate(glm::dmat4(1), {-0.03, 0, 0}));
+                 builder.addObject("right", sphere(), skin, glm::translate(glm::dmat4(1), {0.03, 0, 0}));
+                 return inUniformLight(pictureOf(builder));
+             },
+             Bounds3::atMost(1 + kFurnace)}};
+}
+
+// The sphere with other texture coordinates.
+Extreme mapped(const std::string& name, const std::function<glm::vec2(glm::vec2)>& map) {
+    return body("uv_" + name, [map] {
+        Primitive mesh = sphere();
+        for (glm::vec2& uv : mesh.uv0) uv = map(uv);
+        return mesh;
+    });
+}
+
+std::vector<Extreme> charts() {
+    return {mapped("of_no_area", [](glm::vec2) { return glm::vec2(0.5f); }),
+            mapped("needle", [](glm::vec2 uv) { return glm::vec2(uv.x, uv.y * 1e-6f); }),
+            mapped("sheared", [](glm::vec2 uv) { return glm::vec2(uv.x + 1000 * uv.y, uv.y); }),
+            mapped("stretched_1_to_1000",
+                   [](glm::vec2 uv) { return glm::vec2(uv.x, std::exp(6.9f * (uv.y - 1))); }),
+            mapped("outside", [](glm::vec2 uv) { return uv * 10.f - 5.f; }),
+            mapped("far_outside", [](glm::vec2 uv) { return uv + 1e6f; }),
+            mapped("mirrored", [](glm::vec2 uv) { return glm::vec2(-uv.x, uv.y); })};
+}
+
+// The same body, lights and camera in a world `scale` times as large, moved by `offset`: the same picture.
+RenderJob placed(double scale, const glm::dvec3& offset = glm::dvec3(0),
+                 const glm::dvec3& turn = glm::dvec3(1)) {
+    SceneBuilder builder;
+    SkinMaterial skin;
+    skin.mmPerUnit = 1000 / scale;
+    const glm::dmat4 world = glm::scale(glm::translate(glm::dmat4(1), offset), scale * turn);
+    builder.addObject("body", sphere(), builder.addSkin(skin), world);
+    builder.setOrthographicCamera(offset + glm::dvec3(0, 0, 0.5 * scale), offset, 0.21 * scale);
+    return inLight(inUniformLight(pictureOf(builder)), {key()});
+}
+
+std::vector<Extreme> worlds() {
+    std::vector<Extreme> cases;
+    for (const int exponent : {-4, 4}) {
+        cases.push_back({"scale_1e" + std::to_string(exponent + 4),
+                         [exponent] { return placed(std::pow(10.0, exponent)); },
+                         {},
+                         [] { return placed(1); },
+                         1,
+                         2e-3});
+    }
+    cases.push_back({"a_kilometre_away",
+                     [] {
+                         return placed(1, {1e3, 0, 0});
+                     },
+                     {},
+                     [] { return placed(1); },
+                     1,
+                     2e-3});
+    cases.push_back({"a_thousand_kilometres_away",
+                     [] {
+                         return placed(1, {1e6, 1e6, 0});
+                     },
+                     {},
+                     [] { return placed(1); },
+                     1,
+                     2e-3});
+    cases.push_back({"negative_scale",
+                     [] {
+                         return placed(1, {}, {-1, 1, 1});
+                     },
+                     {},
+                     [] { return placed(1); },
+                     1,
+                     2e-3});
+    cases.push_back({"nonuniform_scale", [] { return placed(1, {}, {1, 0.2, 1}); }});
+    return cases;
+}
+
+CUTIS_EXTREME_CASES(Thickness, thicknesses());
+CUTIS_EXTREME_CASES(Meshes, meshes());
+CUTIS_EXTREME_CASES(Charts, charts());
+CUTIS_EXTREME_CASES(Worlds, worlds());
+
+}  // namespace
+}  // namespace cutis::test

@@ -1,0 +1,94 @@
+#include "extreme.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "tests/support/pictures.h"
+
+namespace cutis::test {
+namespace {
+
+constexpr double kLeastCosine = 0.2;
+
+void checkFinite(const std::string& name, const Picture& picture) {
+    EXPECT_EQ(countNonfinite(picture), 0u) << name;
+}
+
+// The least and the most of the first three channels where the surface is seen, and how many pixels that are.
+struct Range {
+    glm::dvec3 least{std::numeric_limits<double>::infinity()}, most{-std::numeric_limits<double>::infinity()};
+    int pixels = 0;
+};
+
+Range rangeOf(const Rendered& result) {
+    Range range;
+    for (int y = 0; y < result.picture.height; ++y)
+        for (int x = 0; x < result.picture.width; ++x) {
+            if (valueAt(result.picture, x, y, 3) < 0.999 ||
+                valueAt(result.aov("normal"), x, y, 2) < kLeastCosine)
+                continue;
+            range.least = glm::min(range.least, rgbAt(result.picture, x, y));
+            range.most = glm::max(range.most, rgbAt(result.picture, x, y));
+            ++range.pixels;
+        }
+    return range;
+}
+
+}  // namespace
+
+void PrintTo(const Extreme& extreme, std::ostream* out) {
+    *out << extreme.name;
+}
+
+RenderJob pictureOf(SceneBuilder builder) {
+    if (builder.scene().cameras.empty()) builder.setOrthographicCamera({0, 0, 0.5}, {0, 0, 0}, 0.21);
+    return {.scene = builder.scene(), .width = kPixels, .height = kPixels};
+}
+
+RenderJob sphereJob(const SkinMaterial& skin, const glm::dvec3& albedo) {
+    SceneBuilder builder;
+    builder.addObject("body", makeSphere(100 * kMm, SphereMapping::latLong), builder.addSkin(skin, albedo));
+    return pictureOf(builder);
+}
+
+RenderJob inUniformLight(RenderJob job) {
+    job.environment = makeEnvironment(16, 8, [](const glm::dvec3&) { return glm::dvec3(1); });
+    return job;
+}
+
+RenderJob inLight(RenderJob job, std::vector<Light> lights) {
+    job.lights = std::move(lights);
+    return job;
+}
+
+void check(const Extreme& extreme) {
+    const auto start = std::chrono::steady_clock::now();
+    RenderJob job = extreme.job();
+    job.aovs = {"diffuse", "specular", "irradiance", "thickness", "normal", "position", "depth"};
+    const Rendered result = render(job);
+    checkFinite("picture", result.picture);
+    for (const auto& [name, picture] : result.aovs) checkFinite(name, picture);
+    for (const char* name : {"diffuse", "specular", "irradiance"})
+        for (const float value : result.aov(name).values) ASSERT_GE(value, 0) << name;
+    const Range range = rangeOf(result);
+    if (job.width == kPixels && job.height == kPixels)
+        EXPECT_GT(range.pixels, 100) << "nearly nothing is seen";
+    for (int c = 0; c < 3 && range.pixels > 0; ++c) {
+        EXPECT_GE(range.least[c], extreme.bounds.least[c]) << "channel " << c;
+        EXPECT_LE(range.most[c], extreme.bounds.most[c]) << "channel " << c;
+    }
+    if (extreme.other) {
+        Picture expected = render(extreme.other()).picture;
+        for (std::size_t i = 0; i < expected.values.size(); ++i)
+            if (i % 4 != 3) expected.values[i] *= static_cast<float>(extreme.factor);
+        EXPECT_LE(relativeL2(result.picture, expected), extreme.tolerance);
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    std::printf("stability: %-40s %.6g to %.6g in %.1f s\n", extreme.name.c_str(),
+                glm::min(range.least.x, glm::min(range.least.y, range.least.z)),
+                glm::max(range.most.x, glm::max(range.most.y, range.most.z)), seconds.count());
+}
+
+}  // namespace cutis::test

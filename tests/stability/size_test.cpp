@@ -1,0 +1,48 @@
+// Sizes of atlas and picture at their ends.
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "extreme.h"
+
+namespace cutis::test {
+namespace {
+
+RenderJob withAtlas(int size) {
+    RenderJob job = inUniformLight(sphereJob(SceneBuilder::plainSkin()));
+    job.irradianceSize = size;
+    return job;
+}
+
+RenderJob withPicture(int width, int height) {
+    RenderJob job = inUniformLight(sphereJob(SceneBuilder::plainSkin()));
+    job.width = width, job.height = height;
+    return job;
+}
+
+RenderJob crowd() {
+    SceneBuilder builder;
+    const int skin = builder.addSkin(SceneBuilder::plainSkin());
+    for (int i = 0; i < 16; ++i) {
+        builder.addObject(
+            "body " + std::to_string(i), makeSphere(20 * kMm, SphereMapping::latLong), skin,
+            glm::translate(glm::dmat4(1), {-0.075 + 0.05 * (i % 4), -0.075 + 0.05 * (i / 4), 0.0}));
+    }
+    RenderJob job = inUniformLight(pictureOf(builder));
+    job.irradianceSize = 256;
+    return job;
+}
+
+std::vector<Extreme> sizes() {
+    return {{"atlas_16", [] { return withAtlas(16); }, Bounds3::near(1, 0.05)},
+            {"atlas_2048", [] { return withAtlas(2048); }, Bounds3::near(1, 0.03)},
+            {"picture_1x1", [] { return withPicture(1, 1); }, Bounds3::near(1, 0.03)},
+            {"picture_16384x1", [] { return withPicture(16384, 1); }},
+            {"picture_1x2000", [] { return withPicture(1, 2000); }},
+            {"sixteen_characters_in_an_atlas_of_256", crowd, Bounds3::atMost(1.02)}};
+}
+
+CUTIS_EXTREME_CASES(Sizes, sizes());
+
+}  // namespace
+}  // namespace cutis::test

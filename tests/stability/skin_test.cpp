@@ -1,0 +1,116 @@
+// Skin parameters at and beyond their ends. In a uniform environment of radiance 1, white skin has radiance 1
+// whatever they are.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "extreme.h"
+
+namespace cutis::test {
+namespace {
+
+constexpr double kFurnace = 0.03;  // of these coarse pictures; tests/figures holds finer ones to 0.01
+
+SkinMaterial skinOf(double roughness, double specular, double mix = 0.5) {
+    SkinMaterial skin;
+    skin.roughness = roughness, skin.specular = specular, skin.mix = mix;
+    return skin;
+}
+
+// Equal weights, variances in mm².
+SkinMaterial skinOf(const std::vector<double>& variances, const std::vector<double>& weights = {}) {
+    SkinMaterial skin = SceneBuilder::plainSkin();
+    skin.profile.gaussians.clear();
+    double sum = 0;
+    for (const double weight : weights) sum += weight;
+    for (std::size_t k = 0; k < variances.size(); ++k) {
+        const double weight =
+            weights.empty() ? 1.0 / static_cast<double>(variances.size()) : weights[k] / sum;
+        skin.profile.gaussians.push_back({variances[k], glm::dvec3(weight)});
+    }
+    return skin;
+}
+
+Extreme furnace(const std::string& name, const SkinMaterial& skin) {
+    return {name, [skin] { return inUniformLight(sphereJob(skin)); }, Bounds3::near(1, kFurnace)};
+}
+
+std::vector<Extreme> lobes() {
+    std::vector<Extreme> cases;
+    for (const double roughness : {1e-3, 1e-2, 1.0})
+        for (const double specular : {0.0, 1.0, 4.0}) {
+            cases.push_back(furnace("roughness_1e" +
+                                        std::to_string(std::lround(10 * std::log10(roughness)) + 30) +
+                                        "_specular_" + std::to_string(std::lround(specular)),
+                                    skinOf(roughness, specular)));
+        }
+    // A mirror-like lobe under a light of no size: its peak is 1/(π m²), and must stay finite.
+    cases.push_back({"mirror_under_a_light", [] {
+                         return inLight(sphereJob(skinOf(1e-3, 1)), {directionalLight("key", {0, 0, -1}, 1)});
+                     }});
+    cases.push_back(
+        {"grazing_light", [] {
+             return inLight(sphereJob(skinOf(0.1, 4)), {directionalLight("rim", {1, 0, 1e-4}, 1)});
+         }});
+    return cases;
+}
+
+std::vector<Extreme> albedos() {
+    std::vector<Extreme> cases;
+    for (const double mix : {0.0, 0.5, 1.0}) {
+        const std::string suffix = "_mix_" + std::to_string(std::lround(mix * 10));
+        cases.push_back(furnace("white" + suffix, skinOf(0.3, 1, mix)));
+        // What a black body sends back is its highlight alone.
+        cases.push_back({"black" + suffix,
+                         [mix] { return inUniformLight(sphereJob(skinOf(0.3, 1, mix), glm::dvec3(0))); },
+                         Bounds3::atMost(0.7)});
+        cases.push_back({"red" + suffix,
+                         [mix] {
+                             return inUniformLight(sphereJob(skinOf(0.3, 0, mix), {1, 0, 0}));
+                         },
+                         {{1 - kFurnace, 0, 0}, {1 + kFurnace, 1e-6, 1e-6}}});
+    }
+    // Vertices white and black in turn.
+    cases.push_back({"black_and_white_texels",
+                     [] {
+                         SceneBuilder builder;
+                         Primitive body = makeSphere(100 * kMm, SphereMapping::latLong);
+                         for (std::size_t v = 0; v < body.positions.size(); ++v)
+                             body.colors.emplace_back(glm::vec3(v % 2), 1);
+                         builder.addObject("body", body, builder.addSkin(skinOf(0.3, 0)));
+                         return inUniformLight(pictureOf(builder));
+                     },
+                     Bounds3::atMost(1 + kFurnace)});
+    return cases;
+}
+
+std::vector<Extreme> profiles() {
+    std::vector<Extreme> cases;
+    for (const double scale : {1e-3, 1e3}) {
+        SkinMaterial skin = SceneBuilder::plainSkin();
+        skin.scale = scale;
+        cases.push_back({"scale_1e" + std::to_string(std::lround(std::log10(scale)) + 3),
+                         [skin] { return inUniformLight(sphereJob(skin)); },
+                         scale > 1 ? Bounds3::atMost(1 + kFurnace) : Bounds3::near(1, kFurnace)});
+    }
+    // The stiff case: one Gaussian far below a texel, the next wider than the body.
+    cases.push_back({"eight_decades",
+                     [] {
+                         return inUniformLight(sphereJob(skinOf({1e-4, 1e4})));
+                     },
+                     Bounds3::atMost(1 + kFurnace)});
+    cases.push_back(furnace("one_gaussian", skinOf({1.0})));
+    cases.push_back(furnace("sixteen_gaussians", skinOf({1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06, 0.1, 0.2, 0.4,
+                                                         0.8, 1.6, 3.2, 5, 7, 9, 12})));
+    cases.push_back(furnace("zero_weights", skinOf({0.01, 0.1, 1, 5}, {0, 1, 0, 1})));
+    cases.push_back(furnace("weights_near_zero", skinOf({0.01, 0.1, 1, 5}, {1e-30, 1, 1e-12, 1})));
+    cases.push_back(furnace("equal_variances", skinOf({1.0, 1.0 + 1e-12, 1.0 + 2e-12})));
+    return cases;
+}
+
+CUTIS_EXTREME_CASES(Lobes, lobes());
+CUTIS_EXTREME_CASES(Albedos, albedos());
+CUTIS_EXTREME_CASES(Profiles, profiles());
+
+}  // namespace
+}  // namespace cutis::test
