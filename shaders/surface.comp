@@ -7,6 +7,7 @@
 #include "shared/atlas_tiles.h"
 #include "shared/scene.h"
 #include "lib/geometry.glsl"
+#include "lib/metric.glsl"
 #include "lib/octahedral.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -34,6 +35,7 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 #include "lib/atlas_tiles.glsl"
+#include "lib/tile_stretch.glsl"
 
 // Where a texel's shading point lies for a smooth surface: outside the flat triangle wherever its vertex normals
 // say that the surface bulges (Hanika 2021), so that coarse triangles do not shadow themselves at the terminator.
@@ -42,20 +44,6 @@ vec3 smoothPosition(vec3 p, vec3 w, Triangle t, vec3 na, vec3 nb, vec3 nc) {
     vec3 b = p - min(0.0, dot(p - t.b, nb)) * nb;
     vec3 c = p - min(0.0, dot(p - t.c, nc)) * nc;
     return interpolate(w, a, b, c);
-}
-
-// (JᵀJ)⁻¹ = L·Lᵀ with L = ((a, 0), (b, c)), in texels per millimetre. G is JᵀJ. The ratio of G's eigenvalues is
-// bounded: a needle of a triangle (or one without area) has no meaningful direction of its own.
-vec3 inverseMetricFactor(vec3 g) {
-    const float kMaxStretch = 1e4;
-    float mean = 0.5 * (g.x + g.z);
-    if (!(mean > 0.0)) return vec3(0.0);
-    float radius = length(vec2(0.5 * (g.x - g.z), g.y));
-    float smallest = mean - radius, floorValue = (mean + radius) / kMaxStretch;
-    if (smallest < floorValue) g.xz += floorValue - smallest;
-    float det = g.x * g.z - g.y * g.y;
-    float a = sqrt(g.z / det);
-    return vec3(a, -g.y / (det * a), inversesqrt(g.z));
 }
 
 void main() {
@@ -105,8 +93,5 @@ void main() {
     vec3 metric = interpolate(w, aa.metric, ab.metric, ac.metric);
     vec3 factor = inverseMetricFactor(metric);
     imageStore(stretch, texel, vec4(factor, aa.island));
-    // Bits of floats that are not negative compare as the floats do.
-    atomicMax(states[tile].perMmU, floatBitsToUint(factor.x * factor.x));
-    atomicMax(states[tile].perMmV, floatBitsToUint(factor.y * factor.y + factor.z * factor.z));
-    atomicMax(states[tile].perMmMixed, floatBitsToUint(abs(factor.x * factor.y)));
+    noteStretch(tile, factor);
 }

@@ -45,7 +45,7 @@ void main() {
     for (int y = low.y; y <= high.y; ++y) {
         for (int x = low.x; x <= high.x; ++x) {
             uint other = chart.firstTile + uint(y) * chart.cells.x + uint(x);
-            if (states[other].covered > 0u) atomicMin(states[other].step, push.step);
+            if (states[other].covered + states[other].gutter > 0u) atomicMin(states[other].step, push.step);
         }
     }
 }

@@ -36,7 +36,7 @@ void main() {
     for (int y = low.y; y <= high.y; ++y) {
         for (int x = low.x; x <= high.x; ++x) {
             uint tile = chart.firstTile + uint(y) * chart.cells.x + uint(x);
-            if (states[tile].covered > 0u) states[tile].step = 0u;
+            if (states[tile].covered + states[tile].gutter > 0u) states[tile].step = 0u;
         }
     }
 }

@@ -39,6 +39,7 @@ struct FrameContext {
 
     // Known before anything is planned
     Geometry geometry;
+    SkinMesh skinMesh;             // of geometry
     std::vector<Bounds> groups;    // of receivers
     std::vector<bool> groupsSeen;  // in view, or all where every view counts
     shared::ViewCamera camera{};

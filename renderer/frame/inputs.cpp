@@ -48,7 +48,7 @@ std::uint64_t hashLevels(const FrameContext& frame) {
     const std::vector<ChartRange> charts = chartRanges(*frame.input->scene, frame.atlas, *frame.settings);
     ContentHash hash;
     for (const ChartRange& chart : charts) hash.add(chart.profile.gaussians.size());
-    return hash.add(levelShifts(charts, reducesLevels(*frame.settings))).value();
+    return hash.add(profileNumbers(charts)).add(levelShifts(charts, reducesLevels(*frame.settings))).value();
 }
 
 void hashLights(const std::vector<LightSample>& samples, ContentHash& places, ContentHash& power) {
@@ -75,6 +75,7 @@ std::uint64_t hashAtlasDetail(const FrameContext& frame) {
     ContentHash hash;
     hash.add(frame.settings->irradianceSize);
     if (frame.settings->irradianceSize == 0) hash.add(frame.detail.mmPerTexel);
+    hash.add(reachBeyondBorders(*frame.input->scene, frame.geometry, *frame.settings));
     return hash.value();
 }
 

@@ -278,6 +278,8 @@ std::vector<PassRow> rowsBeforeTheFrame() {
          .readsIf = {R::layout}, .writes = {R::draws}, .record = uploadDraws},
         {.name = "profiles", .phase = Phase::upload, .need = Need::skin, .inputs = {I::profiles}, .reads = {R::layout},
          .writes = {R::profiles}, .record = uploadProfiles, .forget = forgetProfiles},
+        {.name = "seams", .phase = Phase::upload, .need = Need::seams, .inputs = {I::levels},
+         .reads = {R::layout}, .writes = {R::seams}, .record = uploadSeams, .forget = forgetSeams},
         {.name = "opposite_sides", .phase = Phase::upload, .need = Need::oppositeSides, .inputs = {I::profiles},
          .reads = {R::layout}, .writes = {R::oppositeVertices}, .record = makeOppositeVertices,
          .forget = forgetOppositeVertices},
@@ -295,7 +297,7 @@ std::vector<PassRow> rowsOfTheFrame() {
     using R = Resource;
     return {
         {.name = "surface", .phase = Phase::frame, .need = Need::skin, .inputs = {I::materials, I::levels},
-         .reads = {R::meshes, R::layout, R::draws, R::textures}, .writes = {R::surface}, .record = surfaceRow,
+         .reads = {R::meshes, R::layout, R::draws, R::textures}, .readsIf = {R::seams}, .writes = {R::surface}, .record = surfaceRow,
          .forget = forgetSurface},
         {.name = "visible", .phase = Phase::frame, .need = Need::hiddenSkin, .inputs = {I::camera, I::materials},
          .reads = {R::viewBuffers, R::surface}, .writes = {R::seen}, .record = visibleRow},

@@ -59,6 +59,12 @@ Needs computeNeeds(const NeedsInput& input) {
         : !lit                         ? "no light"
         : input.shinySkinMaterials > 0 ? count(input.shinySkinMaterials, "material") + " of skin that shines"
                                        : "no skin shines: its specular scale is 0");
+    set(Need::seams, skin && lit && input.seams > 0 && input.chain == Chain::exact,
+        !skin             ? "nothing is skin"
+        : !lit            ? "no light reaches the skin"
+        : input.seams < 1 ? "no skin goes on beyond the border of its UV island"
+        : wholeSkin       ? "the published chain stops at the borders of UV islands"
+                          : count(static_cast<int>(input.seams), "edge") + " of UV islands beyond which skin goes on");
     set(Need::transparency, input.blendedDraws > 0 || !input.prune,
         input.blendedDraws > 0 ? count(input.blendedDraws, "surface") + " seen through"
                                : "nothing is seen through: one layer of surfaces");

@@ -14,9 +14,9 @@ struct FrameContext;
 // What a scene may need. A row of the pass table runs when its need is met.
 enum class Need {
     always, skin, litSkin, hiddenSkin, lights, areaLights, shadows, translucency, oppositeSides, environment,
-    skinSpecular, transparency
+    skinSpecular, transparency, seams
 };
-inline constexpr int kNeedCount = 12;
+inline constexpr int kNeedCount = 13;
 
 // Each need with the reason for which it is met or not, in words.
 struct Needs {
@@ -30,6 +30,7 @@ struct NeedsInput {
     int skinDraws = 0, translucentSkinMaterials = 0;
     int lightSamples = 0, shadowedSamples = 0, areaSamples = 0;
     int shinySkinMaterials = 0, blendedDraws = 0;
+    std::size_t seams = 0;  // edges of UV islands beyond which the skin goes on
     bool environment = false;
     Merge merge = Merge::min;
     Chain chain = Chain::exact;
@@ -49,7 +50,7 @@ enum class Input {
     skinLayer,            // roughness and specular scale of skin
     skinMix,              // how much of its albedo light meets before it scatters
     profiles,             // diffusion profiles as they are used, and which skin is translucent
-    levels,               // of diffusion: how many there are, and their resolutions
+    levels,               // of diffusion: how many there are, which charts share them, and their resolutions
     chain,                // how light is diffused, and by how many taps
     atlasDetail,          // what the layout of the atlas is chosen from
     lightMapSize,
@@ -70,7 +71,7 @@ inline constexpr int kInputCount = 20;
 enum class Resource {
     // Made before the frame
     environmentMaps, environmentSettings, skyClusters, meshes, occluders, textures, materials, layout, draws, profiles,
-    oppositeVertices, lights, viewBuffers, target,
+    seams, oppositeVertices, lights, viewBuffers, target,
     // Written by passes
     surface, seen, lightMaps, thickness, tiles, visibility, irradiance, levels, exitance, picture
 };

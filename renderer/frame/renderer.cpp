@@ -37,6 +37,7 @@ NeedsInput factsOf(const FrameContext& frame) {
         facts.skinDraws += draw.skin;
         facts.blendedDraws += scene.materials[draw.material].alphaMode == AlphaMode::blend;
     }
+    facts.seams = frame.skinMesh.seams;
     for (const int material : skinMaterials(scene, frame.geometry)) {
         facts.translucentSkinMaterials += scene.materials[material].skin->translucency;
         facts.shinySkinMaterials += scene.materials[material].skin->specular > 0;
@@ -74,6 +75,7 @@ void Renderer::State::read() {
     if (geometry != key) {
         geometry = 0;
         frame.geometry = flattenScene(*input.scene);
+        frame.skinMesh = makeSkinMesh(frame.geometry);
         frame.groups.clear();
         for (const ReceiverGroup& group : frame.geometry.receiverGroups) frame.groups.push_back(group.bounds);
         frame.detail = {};

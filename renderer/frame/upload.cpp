@@ -1,11 +1,14 @@
 #include "renderer/frame/upload.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "renderer/frame/frame.h"
+#include "renderer/frame/seam_map.h"
 #include "renderer/gpu/device.h"
+#include "renderer/passes/diffusion.h"
 #include "renderer/skin/specular.h"
 #include "renderer/skin/specular_lobes.h"
 
@@ -164,6 +167,19 @@ skin::Profile profileOf(const Scene& scene, int material, int gaussians) {
     return gaussians > 0 ? skin::reduced(profile, gaussians) : profile;
 }
 
+std::vector<double> reachBeyondBorders(const Scene& scene, const Geometry& geometry, const RenderSettings& settings) {
+    std::vector<double> reaches(scene.materials.size(), 0);
+    for (const int material : skinMaterials(scene, geometry)) {
+        double before = 0, widest = 0;
+        for (const skin::Gaussian& g : profileOf(scene, material, settings.gaussians).gaussians) {
+            widest = std::max(widest, g.variance - before);
+            before = g.variance;
+        }
+        if (widest > 0) reaches[material] = std::exp2(std::ceil(2 * std::log2(3 * std::sqrt(widest))) / 2);
+    }
+    return reaches;
+}
+
 namespace {
 
 // The Gaussians of up to that variance (mm²) as one of their mean variance.
@@ -208,6 +224,17 @@ std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, cons
         ranges.push_back(std::move(range));
     }
     return ranges;
+}
+
+std::vector<int> profileNumbers(const std::vector<ChartRange>& charts) {
+    std::vector<std::vector<double>> distinct;
+    std::vector<int> numbers;
+    for (const ChartRange& chart : charts) {
+        std::vector<double> variances;
+        for (const skin::Gaussian& g : chart.profile.gaussians) variances.push_back(g.variance);
+        numbers.push_back(static_cast<int>(indexOf(distinct, variances)));
+    }
+    return numbers;
 }
 
 bool reducesLevels(const RenderSettings& settings) { return settings.reducedLevels && settings.chain == Chain::exact; }
@@ -280,8 +307,10 @@ void uploadMaterials(FrameContext& frame) {
 }
 
 void uploadLayout(FrameContext& frame) {
-    const AtlasOptions options{.size = frame.settings->irradianceSize, .mmPerTexelWanted = frame.detail.mmPerTexel};
-    frame.atlas = layOutAtlas(*frame.input->scene, frame.geometry, options);
+    const AtlasOptions options{.size = frame.settings->irradianceSize,
+                               .mmPerTexelWanted = frame.detail.mmPerTexel,
+                               .reachMm = reachBeyondBorders(*frame.input->scene, frame.geometry, *frame.settings)};
+    frame.atlas = layOutAtlas(*frame.input->scene, frame.skinMesh, frame.geometry, options);
     SceneBuffers& buffers = frame.scene.buffers;
     buffers.atlasVertices = uploadBuffer(*frame.device, *frame.commands, "atlas vertices", frame.atlas.vertices);
     std::vector<std::uint32_t> all(frame.geometry.skinTriangleCount);
@@ -318,6 +347,24 @@ void uploadProfiles(FrameContext& frame) {
     }
     frame.scene.buffers.gaussians = uploadBuffer(*frame.device, *frame.commands, "gaussians", terms);
 }
+
+void uploadSeams(FrameContext& frame) {
+    const std::vector<ChartRange> charts = chartRanges(*frame.input->scene, frame.atlas, *frame.settings);
+    const std::vector<int> profiles = profileNumbers(charts);
+    SeamLists& seams = frame.scene.buffers.seams;
+    std::vector<std::uint32_t> shifts = levelShifts(charts, reducesLevels(*frame.settings));
+    shifts.push_back(0);
+    for (std::uint32_t shift = 0; shift <= kCoarseLevels; ++shift) {
+        if (std::find(shifts.begin(), shifts.end(), shift) == shifts.end()) continue;
+        const SeamMap map = makeSeamMap(frame.geometry, frame.skinMesh, frame.atlas, profiles, shift);
+        seams.counts[shift] = static_cast<std::uint32_t>(map.texels.size());
+        if (map.texels.empty()) continue;
+        seams.texels[shift] = uploadBuffer(*frame.device, *frame.commands, "seams", map.texels);
+        if (shift == 0) seams.metrics = uploadBuffer(*frame.device, *frame.commands, "seam metrics", map.metrics);
+    }
+}
+
+void forgetSeams(FrameContext& frame) { frame.scene.buffers.seams = {}; }
 
 void uploadOccluders(FrameContext& frame) {
     // A third of a texel of the finest map that these meshes are drawn into.

@@ -33,10 +33,16 @@ std::vector<SkinSpecular> skinLayers(const Scene& scene, const Geometry& geometr
 // > 0, reduced to that many.
 skin::Profile profileOf(const Scene& scene, int material, int gaussians);
 
+// How far, in mm, each material's skin is blurred across borders of UV islands: three standard deviations of its widest blur,
+// rounded up in steps so that a profile which changes a little leaves the atlas as it is. 0: not skin.
+std::vector<double> reachBeyondBorders(const Scene& scene, const Geometry& geometry, const RenderSettings& settings);
+
 // The charts of the atlas as passes use them. With settings.prune, of skin that is not translucent the Gaussians whose variance a lookup between texels
 // adds anyway (1/6 texel²) are one: their levels of diffusion would be the same texture. That is so where a texel is no
 // smaller than AtlasChart::finestMm, on all but a fiftieth of them; there light stays sharper by less than half a texel.
 std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, const RenderSettings& settings);
+// A number for each chart, equal for those whose levels of diffusion hold light of equal variances.
+std::vector<int> profileNumbers(const std::vector<ChartRange>& charts);
 // Whether wide Gaussians are blurred at a lower resolution.
 bool reducesLevels(const RenderSettings& settings);
 
@@ -47,11 +53,13 @@ void uploadMaterials(FrameContext& frame);
 void uploadLayout(FrameContext& frame);
 void uploadDraws(FrameContext& frame);
 void uploadProfiles(FrameContext& frame);
+void uploadSeams(FrameContext& frame);
 void uploadOccluders(FrameContext& frame);
 
 // They free what these rows wrote.
 void forgetMeshes(FrameContext& frame);
 void forgetTextures(FrameContext& frame);
 void forgetLayout(FrameContext& frame);
+void forgetSeams(FrameContext& frame);
 
 }  // namespace cutis

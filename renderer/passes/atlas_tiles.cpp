@@ -1,6 +1,7 @@
 #include "renderer/passes/atlas_tiles.h"
 
 #include "renderer/gpu/device.h"
+#include "renderer/passes/seams.h"
 
 namespace cutis {
 namespace {
@@ -49,7 +50,8 @@ void listTiles(gpu::Device& device, gpu::Commands& commands, const AtlasTiles& t
 }  // namespace
 
 AtlasTiles recordCoveredTiles(gpu::Device& device, gpu::Commands& commands, const gpu::Image& triangles,
-                              std::span<const ChartRange> ranges, std::vector<std::uint32_t> shifts) {
+                              std::span<const ChartRange> ranges, std::vector<std::uint32_t> shifts,
+                              const SeamLists& seams) {
     AtlasTiles result;
     result.shifts = std::move(shifts);
     std::vector<shared::AtlasChart> charts;
@@ -93,6 +95,7 @@ AtlasTiles recordCoveredTiles(gpu::Device& device, gpu::Commands& commands, cons
                        {"AtlasTileBuffer", result.tiles},
                        {"TileStateBuffer", result.states}},
                       result.count, gpu::groupsFor(cover, result.count));
+    recordGutterTiles(device, commands, seams, result);
     listTiles(device, commands, result);
     return result;
 }
@@ -122,9 +125,11 @@ void recordNeededTiles(gpu::Device& device, gpu::Commands& commands, const Scene
         grow(device, commands, scene, tiles, taps, {tiles.count, tiles.lookups(), 0, kNeighbours, coarsest, 0});
     for (std::uint32_t level = tiles.levels(); level-- > 0;) {
         const std::uint32_t shift = tiles.shifts[level], finer = tiles.finerShift(level);
+        recordSeamTiles(device, commands, scene.seams, tiles, tiles.level(level), shift);
         grow(device, commands, scene, tiles, taps, {tiles.count, tiles.scratch(level), level, 1, shift, finer});
         grow(device, commands, scene, tiles, taps, {tiles.count, tiles.scratch(level) + 1, level, 0, shift, finer});
     }
+    recordSeamTiles(device, commands, scene.seams, tiles, tiles.lit(), 0);
     // Neighbours are all that bilinear lookups of probes reach.
     grow(device, commands, scene, tiles, taps, {tiles.count, tiles.probes(), 0, kNeighbours, 0, 0});
     listTiles(device, commands, tiles);

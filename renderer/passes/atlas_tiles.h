@@ -7,9 +7,12 @@
 //     seen       pixels look the skin up there                             thickness, exitance
 //     entries    light that shines through what is seen enters there
 //     lookups    levels are looked up there, between texels of the coarsest one
-//     level(k)   a texel of one of these reads level k there               second direction of blur k
-//     scratch(k) likewise what stands between its two directions           first direction of blur k
-//     lit        likewise what level 0 is made from                        irradiance
+//     read(k)    a texel of one of these reads level k there
+//     level(k)   gutters of these go on there                              second direction of blur k
+//     scratch(k) a texel of one of these reads there what stands between
+//                the two directions of blur k                              first direction of blur k
+//     read(-1)   likewise what level 0 is made from
+//     lit        gutters of these go on there                              irradiance
 //     probes     likewise what the sky's visibility there is made from     environment visibility and
 //     occlusion
 //
@@ -33,9 +36,9 @@ struct AtlasTiles {
     std::uint32_t seen() const { return 0; }
     std::uint32_t entries() const { return 1; }
     std::uint32_t lookups() const { return 2; }
-    std::uint32_t level(std::uint32_t k) const { return 2 + 2 * (levels() - 1 - k); }  // k from 0
+    std::uint32_t level(std::uint32_t k) const { return 3 * (levels() - k); }  // k from 0
     std::uint32_t scratch(std::uint32_t k) const { return level(k) + 1; }
-    std::uint32_t lit() const { return 2 + 2 * levels(); }
+    std::uint32_t lit() const { return 3 + 3 * levels(); }
     std::uint32_t probes() const { return lit() + 1; }
     std::uint32_t steps() const { return probes() + 1; }
     std::uint32_t levels() const { return static_cast<std::uint32_t>(shifts.size()); }
@@ -43,10 +46,11 @@ struct AtlasTiles {
     std::uint32_t finerShift(std::uint32_t k) const { return k > 0 ? shifts[k - 1] : 0; }
 };
 
-// Finds the tiles that hold any of `triangles` (triangle + 1, 0: none), and lists them as seen. shifts: of
-// each level.
+// Finds the tiles that hold any of `triangles` (triangle + 1, 0: none) or a gutter, and lists them as seen.
+// shifts: of each level.
 AtlasTiles recordCoveredTiles(gpu::Device& device, gpu::Commands& commands, const gpu::Image& triangles,
-                              std::span<const ChartRange> charts, std::vector<std::uint32_t> shifts);
+                              std::span<const ChartRange> charts, std::vector<std::uint32_t> shifts,
+                              const SeamLists& seams);
 
 // Makes seen only the tiles in which the marked ones (1) of the skin's first triangles lie.
 void recordSeenTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/gpu/device.h"
+#include "renderer/passes/seams.h"
 
 namespace cutis {
 namespace {
@@ -76,6 +77,7 @@ DiffusionLevels makeLevels(gpu::Device& device, gpu::Commands& commands, int atl
 void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                      const SurfaceImages& surface, const AtlasTiles& tiles, int taps, SkinLight& light) {
     light.levels = makeLevels(device, commands, surface.size, tiles);
+    recordSeams(device, commands, scene.seams, light.irradiance, 0);
     gpu::Image scratch, reduced;
     std::uint32_t scratchShift = ~0u;
     // Level by level over all charts, so that one barrier serves them all.
@@ -108,6 +110,7 @@ void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBu
                           BlurPush{{}, level, axis}, tiles,
                           axis == 0 ? tiles.scratch(level) : tiles.level(level), shift);
         }
+        recordSeams(device, commands, scene.seams, light.levels.view(level), shift);
     }
 }
 

@@ -32,6 +32,13 @@ struct DrawRange {
     glm::vec3 boundsMin{0}, boundsMax{0};    // metres from the scene's origin
 };
 
+// Gutter texels beyond borders of UV islands, at full, half and a quarter of the atlas' resolution (frame/seam_map.h).
+struct SeamLists {
+    std::array<gpu::Buffer, kCoarseLevels + 1> texels;  // shared::SeamTexel
+    std::array<std::uint32_t, kCoarseLevels + 1> counts{};
+    gpu::Buffer metrics;  // of those at full resolution: AtlasVertex::metric at the border
+};
+
 // The scene on the device, uploaded once (frame/upload.cpp).
 struct SceneBuffers {
     gpu::Buffer indices, proxyIndices, positions, attributes, atlasVertices, triangleDraws, draws, materials;
@@ -39,6 +46,7 @@ struct SceneBuffers {
     gpu::Buffer gaussians;                       // of all charts
     gpu::Buffer skinTriangles, borderTriangles;  // triangle numbers
     std::uint32_t skinTriangleCount = 0, borderTriangleCount = 0;
+    SeamLists seams;
     std::vector<gpu::Image> textureArrays;
     std::vector<gpu::SampledImage> materialTextures;  // MAX_TEXTURE_GROUPS of them, or none
     std::vector<DrawRange> ranges;

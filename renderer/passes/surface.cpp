@@ -2,6 +2,7 @@
 
 #include "renderer/gpu/device.h"
 #include "renderer/passes/diffusion.h"
+#include "renderer/passes/seams.h"
 
 namespace cutis {
 namespace {
@@ -62,7 +63,7 @@ SurfaceImages recordSurface(gpu::Device& device, gpu::Commands& commands, const 
     images.albedo = atlasImage(device, "surface albedo", VK_FORMAT_R16G16B16A16_SFLOAT, size);
     images.stretch = atlasImage(device, "surface stretch", VK_FORMAT_R32G32B32A32_SFLOAT, size);
     recordOwners(device, commands, scene, images);
-    tiles = recordCoveredTiles(device, commands, images.triangles, charts, levelShifts);
+    tiles = recordCoveredTiles(device, commands, images.triangles, charts, levelShifts, scene.seams);
     commands.clear(images.position);
 
     gpu::Bindings bindings{{"triangles", images.triangles},
@@ -83,6 +84,7 @@ SurfaceImages recordSurface(gpu::Device& device, gpu::Commands& commands, const 
                                       ? device.program("surface.comp+TEXTURED", scene.textureConstants())
                                       : device.program("surface.comp");
     dispatchTiles(commands, program, bindings, SurfacePush{}, tiles, tiles.seen());
+    recordGutterStretch(device, commands, scene.seams, tiles, images);
     recordCoarseStretch(device, commands, tiles, images);
     return images;
 }

@@ -27,9 +27,19 @@ struct AtlasTile {
 
 struct AtlasTileState {
     uint covered;  // texels of the chart that hold surface
+    uint gutter;   // texels beyond the border of an island onto which the surface goes on from there
     uint step;     // how early the tile is needed: see passes/atlas_tiles.h
     // Largest covariance in texels² of a Gaussian of 1 mm²: along u, along v, and between them, as the bits of floats.
     uint perMmU, perMmV, perMmMixed;
+};
+
+// A texel beyond the border of a UV island, and the place on another island, or further on the same one, that lies there on
+// the surface (frame/seam_map.h).
+struct SeamTexel {
+    uint texel;    // x | y << 14; from bit 28: which of the four texels around `place` belong to that island
+    vec2 place;    // in texels, of the resolution that the texel is of
+    float island;  // 1-based: the one that the texel extends
+    uint charts;   // that of the texel | that of `place` << 16
 };
 
 // The tiles of one chart that are needed up to one step, and the work groups for them.
