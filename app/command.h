@@ -20,6 +20,7 @@ struct Command {
     std::string_view summary;            // one line
     std::string_view details;            // paragraphs for its own help, each a line
     int (*run)(const Request& request);  // returns the exit status
+    bool explainsRigs = false;           // its help lists the fields of a rig file
 };
 
 std::string fullName(const Command& command);  // "rig show"

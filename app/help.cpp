@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/scene/fields.h"
+
 namespace cutis::app {
 namespace {
 
@@ -36,6 +38,14 @@ void appendRow(std::string& help, const std::string& left, std::string_view righ
         help += std::string(kHelpColumn - 2 - left.size(), ' ');
     }
     appendWrapped(help, kHelpColumn, right);
+}
+
+void appendFields(std::string& help, const std::vector<FieldGroup>& groups) {
+    for (const FieldGroup& group : groups) {
+        help += "\nKeys of a rig file: " + std::string(group.object) + "\n";
+        for (const Field& field : group.fields)
+            appendRow(help, field.key, std::string(field.help) + " (" + field.allowed() + ")");
+    }
 }
 
 std::string withOperands(const Command& command) {
@@ -91,6 +101,7 @@ std::string commandHelp(const Command& command) {
         if (!option->isFlag()) names.append(" ").append(option->metavar);
         appendRow(help, names, option->help);
     }
+    if (command.explainsRigs) appendFields(help, rigFields());
     help += known.empty() ? "\nOptions:\n" : "\nHelp:\n";
     appendRow(help, "--help, -h", "This text");
     return help;

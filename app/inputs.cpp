@@ -7,6 +7,7 @@
 #include "renderer/core/suggest.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/environment.h"
+#include "renderer/scene/environment_sun.h"
 #include "renderer/scene/gltf.h"
 #include "renderer/scene/presets.h"
 #include "renderer/scene/rig.h"
@@ -64,6 +65,7 @@ void chooseEnvironment(const Request& request, Inputs& inputs) {
     if (request.environment) {
         settings.file = *request.environment;
         settings.enabled = true;
+        settings.sunRemoved = false;  // it was of the rig's own
     }
     settings.intensity = request.environmentIntensity.value_or(settings.intensity);
     settings.rotation = request.environmentRotation.value_or(settings.rotation);
@@ -71,6 +73,7 @@ void chooseEnvironment(const Request& request, Inputs& inputs) {
         request.environment ? fs::path(settings.file) : environmentFileOf(inputs.rig, inputs.rigFile);
     if (!inputs.environmentFile.empty()) {
         inputs.environment = loadEnvironment(inputs.environmentFile);
+        if (settings.sunRemoved) removeSun(*inputs.environment);
     } else if (request.environmentIntensity || request.environmentRotation) {
         warn("--env-intensity and --env-rotation have no effect: there is no environment");
     }

@@ -51,7 +51,7 @@ std::span<const Command> commands() {
          "Values that are at their defaults are left out.", runRigShow},
         {"rig", "check", "RIG", 1, 1, kRigCheck, false,
          "Says whether a rig file is right and its environment is there",
-         "With --scene also whether the subjects of its lights are there.", runRigCheck},
+         "With --scene also whether the subjects of its lights are there.", runRigCheck, true},
         {"rig", "export", "RIG|SCENE", 1, 1, kRigExport, true, "Rigs to glTF lights, and back",
          "A rig file or preset becomes the lights of a .glb file, placed by the heads of --scene where the "
          "rig asks "

@@ -8,6 +8,7 @@
 #include "app/usage_error.h"
 #include "renderer/core/suggest.h"
 #include "renderer/reference/reference.h"
+#include "renderer/scene/fields.h"
 #include "renderer/scene/presets.h"
 
 namespace cutis::app {
@@ -22,7 +23,6 @@ constexpr unsigned kPicture = kRender | kReference;  // the same picture in two 
 constexpr unsigned kView = kPicture | kPlan | kCompare | kMeasure | kViewer;  // whatever shows a scene
 constexpr int kMaxRepeats = 1000;
 constexpr double kMinUiScale = 0.5, kMaxUiScale = 4;
-constexpr double kMaxExposure = 64, kMaxIntensity = 1e12, kMaxTurn = 36000;
 
 [[noreturn]] void refuse(const std::string& text, const std::string& must) {
     throw UsageError("is '" + text + "', it must be " + must);
@@ -51,6 +51,25 @@ std::int64_t parseInteger(const std::string& text, std::int64_t min, std::int64_
     if (error != std::errc() || end != last || value < min || value > max)
         refuse(text, "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
     return value;
+}
+
+double parseField(const std::string& text, const Field& field) {
+    return parseNumber(text, field.min, field.max);
+}
+
+std::string helpOf(const Field& field) {
+    return field.help;
+}
+
+// An enumerator by its name; `names` in the order of the enumeration.
+template <class Enum, std::size_t kCount>
+Enum parseChoice(const std::string& text, const char* const (&names)[kCount]) {
+    std::string must;
+    for (std::size_t i = 0; i < kCount; ++i) {
+        if (text == names[i]) return static_cast<Enum>(i);
+        must += (i == 0 ? "" : i + 1 == kCount ? " or " : ", ") + std::string(names[i]);
+    }
+    refuse(text, must);
 }
 
 std::string parseText(const std::string& text) {
@@ -184,10 +203,8 @@ std::vector<Option> makeOptions() {
          "Write what ran, what was left out and why, times and bytes as JSON", false,
          [](Request& r, const std::string& text) { r.stats = parseText(text); }},
         {"--exposure", "EV", kView, output,
-         "Added to the rig's exposure: each step doubles. For .png only (default: 0)", false,
-         [](Request& r, const std::string& text) {
-             r.exposure = parseNumber(text, -kMaxExposure, kMaxExposure);
-         }},
+         helpOf(fields::kExposure) + ", added to the rig's; for .png only (default: 0)", false,
+         [](Request& r, const std::string& text) { r.exposure = parseField(text, fields::kExposure); }},
         {"-o, --output", "DIR", kCompare | kMeasure, output,
          "The folder of the report: a new one, or one that holds an earlier report", false,
          [](Request& r, const std::string& text) { r.outputs.push_back(parseText(text)); }},
@@ -246,17 +263,19 @@ std::vector<Option> makeOptions() {
          "A lat-long environment (.exr, .hdr, …) in place of the rig's, or 'none'", false,
          [](Request& r, const std::string& text) { r.environment = parseText(text); }},
         {"--env-intensity", "X", kView, light,
-         "Factor on the environment's radiance, in place of the rig's", false,
+         helpOf(fields::kEnvironmentIntensity) + ", in place of the rig's", false,
          [](Request& r, const std::string& text) {
-             r.environmentIntensity = parseNumber(text, 0, kMaxIntensity);
+             r.environmentIntensity = parseField(text, fields::kEnvironmentIntensity);
          }},
         {"--env-rotation", "DEG", kView, light,
-         "Turn of the environment about +Y in degrees, counter-clockwise seen from above, in place of the "
-         "rig's",
-         false,
+         helpOf(fields::kRotation) + ", in place of the rig's", false,
          [](Request& r, const std::string& text) {
-             r.environmentRotation = parseNumber(text, -kMaxTurn, kMaxTurn);
+             r.environmentRotation = parseField(text, fields::kRotation);
          }},
+        {"--background", "NAME", kRender | kViewer, view,
+         "What lies behind the scene: none, env, the environment, or blurred. Alpha stays the coverage (default: none)",
+         false,
+         [](Request& r, const std::string& text) { r.background = parseChoice<Background>(text, kBackgroundNames); }},
 
         {"--camera", "CAMERA", kView, view,
          "A camera's name or index, 'auto', 'auto:AZ,EL': framed on the heads from that azimuth and elevation in "
@@ -284,23 +303,22 @@ std::vector<Option> makeOptions() {
          "of the other side of the skin, whatever the lights (default: min)",
          false,
          [](Request& r, const std::string& text) {
-             if (text != "min" && text != "opposite") refuse(text, "min or opposite");
-             r.settings.merge = text == "min" ? Merge::min : Merge::opposite;
+             r.settings.merge = parseChoice<Merge>(text, kMergeNames);
          }},
         {"--chain", "NAME", kPicture | kPlan | kCompare | kViewer, quality,
          "How light is diffused: exact, or published, the chain of blurs as GPU Gems 3 prints it, to compare with "
          "(default: exact)",
          false,
          [](Request& r, const std::string& text) {
-             if (text != "exact" && text != "published") refuse(text, "exact or published");
-             r.settings.chain = text == "exact" ? Chain::exact : Chain::published;
+             r.settings.chain = parseChoice<Chain>(text, kChainNames);
          }},
         {"--taps", "N", kPicture | kPlan | kCompare | kViewer, quality,
          "Texels that each blur reads on either side, at the most: fewer are faster and less exact (default: 12)", false,
          [](Request& r, const std::string& text) {
              r.settings.taps = static_cast<int>(parseInteger(text, 1, kMaxTaps));
          }},
-        {"--seed", "N", kView, quality, "Starts the random numbers of whatever uses any (default: 0)",
+        {"--seed", "N", kView, quality, "Starts the random numbers of whatever uses any; of a picture, other samples of its area lights and its sky "
+         "(default: 0)",
          false,
          [](Request& r, const std::string& text) {
              r.settings.seed =

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/frame/background.h"
 #include "renderer/frame/renderer.h"
 
 namespace cutis::app {
@@ -27,6 +28,7 @@ struct Request {
     std::filesystem::path scene;                                      // for commands whose operand is a rig
     double exposure = 0;                                              // EV, added to the rig's
     std::string device;                                               // as gpu::DeviceOptions takes it
+    Background background = Background::none;                         // of cutis render
     RenderSettings settings;
 
     double uiScale = 0;  // of cutis view: size of its interface; 0: as the desktop asks

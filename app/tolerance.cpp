@@ -6,7 +6,6 @@
 
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
-#include "renderer/measure/front.h"
 #include "renderer/reference/reference.h"
 
 namespace cutis::app {
@@ -34,18 +33,32 @@ void recordMeasurement(const Inputs& inputs, const gpu::DeviceInfo& device, cons
     writeCache(kCacheKind, measurementKey(inputs, device), std::as_bytes(std::span(measureJson)));
 }
 
+KnownFront knownFront(const Inputs& inputs, const gpu::DeviceInfo& device) {
+    const std::vector<std::byte> recorded = readCache(kCacheKind, measurementKey(inputs, device));
+    if (recorded.empty()) return {defaultFront(), false};
+    return {readFront({reinterpret_cast<const char*>(recorded.data()), recorded.size()},
+                      (cacheFolder() / kCacheKind).string()),
+            true};
+}
+
+bool anyMeasurement() {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(cacheFolder(), error))
+        if (entry.path().filename().string().starts_with(kCacheKind)) return true;
+    return false;
+}
+
+std::string KnownFront::where() const {
+    return std::string(ofThisScene ? "this scene" : "the default scene") + " at " + std::to_string(front.width) +
+           "x" + std::to_string(front.height) + " on " + front.device;
+}
+
 void applyTolerance(double tolerance, Inputs& inputs, const gpu::DeviceInfo& device,
                     RenderSettings& settings) {
-    const std::vector<std::byte> recorded = readCache(kCacheKind, measurementKey(inputs, device));
-    const bool known = !recorded.empty();
-    const MeasuredFront front =
-        known ? readFront({reinterpret_cast<const char*>(recorded.data()), recorded.size()},
-                          (cacheFolder() / kCacheKind).string())
-              : defaultFront();
-    const std::string where = std::string(known ? "this scene" : "the default scene") + " at " +
-                              std::to_string(front.width) + "x" + std::to_string(front.height) + " on " +
-                              front.device;
-    const std::string hint = known ? "" : "; cutis measure of this scene would tell what holds for it";
+    const KnownFront known = knownFront(inputs, device);
+    const MeasuredFront& front = known.front;
+    const std::string where = known.where();
+    const std::string hint = known.ofThisScene ? "" : "; cutis measure of this scene would tell what holds for it";
     const MeasuredSetting* chosen = cheapestWithin(front, tolerance);
     if (!chosen) {
         const MeasuredSetting* best = closest(front);

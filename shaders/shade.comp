@@ -72,7 +72,7 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 const int AOV_IRRADIANCE = 2, AOV_THICKNESS = 3, AOV_ALBEDO = 4, AOV_NORMAL = 5,
-          AOV_POSITION = 6, AOV_DEPTH = 7, AOV_CHARACTER = 8;
+          AOV_POSITION = 6, AOV_DEPTH = 7, AOV_CHARACTER = 8, AOV_ATLAS = 9;
 const float kPi = 3.14159265358979;
 const float kNoThickness = 60000.0;
 
@@ -129,7 +129,7 @@ Triangle fetchTriangle(uint index) {
 struct Shade {
     vec3 diffuse, specular;  // radiance; what is emitted counts as diffuse
     float alpha;
-    vec3 normal, albedo, position, irradiance;
+    vec3 normal, albedo, position, irradiance, atlas;  // atlas: x, y in texels, 1 on skin
     float thickness, depth;
     uint character;
 };
@@ -146,6 +146,7 @@ void shadeSkin(inout Shade shade, Material material, vec2 atlasTexel, float isla
     shade.diffuse += after * m / kPi * through;
 #ifdef AOVS
     shade.irradiance = lookUp(incident, at).rgb;
+    shade.atlas = vec3(atlasTexel, 1.0);
     shade.thickness = texelFetch(incident, clamp(ivec2(atlasTexel), ivec2(0), textureSize(incident, 0) - 1), 0).a;
 #endif
     float scale = clampedSpecularScale(material.specularScale, directionalAlbedo(mu, material.albedoRow));
@@ -212,7 +213,7 @@ void shadeMetallicRoughness(inout Shade shade, DrawInfo draw, vec3 p, vec3 smoot
 
 Shade shadeAt(uint triangleIndex, vec2 pixel) {
     Shade shade;
-    shade.diffuse = shade.specular = shade.irradiance = vec3(0.0);
+    shade.diffuse = shade.specular = shade.irradiance = shade.atlas = vec3(0.0);
     shade.thickness = 0.0;
     uint drawIndex = triangleDraws[triangleIndex];
     DrawInfo draw = draws[drawIndex];
@@ -314,6 +315,7 @@ void storeAovs(ivec2 pixel, Shade seen) {
     storeAov(pixel, AOV_POSITION, seen.position);
     storeAov(pixel, AOV_DEPTH, vec3(seen.depth));
     storeAov(pixel, AOV_CHARACTER, vec3(float(seen.character)));
+    storeAov(pixel, AOV_ATLAS, seen.atlas);
 }
 #endif
 

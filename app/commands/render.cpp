@@ -50,6 +50,9 @@ int runRender(const Request& request) {
     const RenderInput input = renderInput(inputs);
     RenderResult result = renderPicture(device, input, settings);
     result.stats.loadMs = loadMs;
+    if (inputs.environment)
+        BackgroundPainter(*inputs.environment, request.background)
+            .paint(result.picture, inputs.camera, inputs.rig.environment);
 
     progress.setStage("writing");
     writeResult(result, request, inputs.rig.exposure + request.exposure);

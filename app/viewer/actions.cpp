@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "app/inputs.h"
+#include "app/viewer/window.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
 #include "renderer/scene/environment.h"
+#include "renderer/scene/environment_sun.h"
 #include "renderer/scene/picture.h"
 #include "renderer/scene/presets.h"
 #include "renderer/scene/rig.h"
@@ -40,6 +42,17 @@ bool attempt(Session& session, const Function& function) {
     return false;
 }
 
+// One at a time: what was begun before is waited for.
+void startTask(Session& session, std::function<std::function<void(Session&)>()> work) {
+    if (session.task.valid()) session.task.wait();
+    continueTask(session);
+    session.task = std::async(std::launch::async, [work = std::move(work)] {
+        std::function<void(Session&)> end = work();
+        Window::wake();
+        return end;
+    });
+}
+
 // A rig from a file with its environment's name made absolute.
 Rig loadWholeRig(const fs::path& file) {
     Rig rig = loadRig(file);
@@ -62,6 +75,13 @@ void openScene(Session& session, const std::string& scene) {
     Request request;
     request.operands = {scene};
     request.settings = session.request.settings;
+    const Quality& quality = session.document().quality;
+    request.settings.irradianceSize = quality.irradianceSize;
+    request.settings.gaussians = quality.gaussians;
+    request.settings.merge = quality.merge;
+    request.settings.chain = quality.chain;
+    request.settings.taps = quality.taps;
+    request.background = session.document().background;
     session.opening = request;
 }
 
@@ -90,13 +110,44 @@ void openPreset(Session& session, const std::string& name) {
 }
 
 void openEnvironment(Session& session, const fs::path& file) {
-    attempt(session, [&] {
-        loadEnvironment(file);  // refuses what is no environment before it becomes part of the document
-        session.edits.apply("Environment " + file.filename().string(), [&](Document& document) {
-            document.rig.environment.file = fs::absolute(file).lexically_normal().string();
-            document.rig.environment.enabled = true;
-        });
+    // Refuses what is no environment before it becomes part of the document.
+    startTask(session, [file]() -> std::function<void(Session&)> {
+        loadEnvironment(file);
+        return [file](Session& s) {
+            s.edits.endGesture();
+            s.edits.apply("Environment " + file.filename().string(), [&](Document& document) {
+                EnvironmentSettings& environment = document.rig.environment;
+                environment.file = fs::absolute(file).lexically_normal().string();
+                environment.enabled = true;
+                environment.sunRemoved = false;
+            });
+            s.edits.endGesture();
+        };
     });
+}
+
+void takeSun(Session& session) {
+    const EnvironmentSettings& settings = session.document().rig.environment;
+    if (settings.file.empty() || settings.sunRemoved) return;
+    session.say("Looks for the sun ...");
+    startTask(session, [settings]() -> std::function<void(Session&)> {
+        const std::optional<EnvironmentSun> sun = findSun(loadEnvironment(settings.file, false));
+        if (!sun) return [](Session& s) { s.say("Nothing stands out in this environment like a sun"); };
+        return [light = sunLight(*sun, settings), settings](Session& s) {
+            if (s.document().rig.environment != settings) return s.say("The environment has changed meanwhile");
+            s.edits.endGesture();
+            s.edits.apply("Take the sun out",
+                          [&](Document& document) { s.selectedLight = takeSunOut(document, light); });
+            s.edits.endGesture();
+            s.say("The sun is a light of the rig now; the environment shines without it");
+        };
+    });
+}
+
+void continueTask(Session& session) {
+    using namespace std::chrono_literals;
+    if (!session.task.valid() || session.task.wait_for(0s) != std::future_status::ready) return;
+    attempt(session, [&] { session.task.get()(session); });
 }
 
 bool saveRig(Session& session) {
@@ -143,7 +194,7 @@ void continueSaving(Session& session) {
         !session.picture->full || session.picture->version != session.edits.version())
         return;
     const fs::path file = std::exchange(session.savingPicture, {});
-    session.writing = std::async(std::launch::async, [file, picture = session.picture->linear,
+    session.writing = std::async(std::launch::async, [file, picture = session.picture->composed,
                                                       exposure = session.document().rig.exposure] {
         try {
             lowercaseExtension(file) == ".png" ? writePng(file, *picture, exposure)

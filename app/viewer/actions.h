@@ -16,6 +16,11 @@ void openRig(Session& session, const std::filesystem::path& file);
 void openPreset(Session& session, const std::string& name);
 void openEnvironment(Session& session, const std::filesystem::path& file);
 
+// Finds the sun of the environment and makes it a light of the rig, in one edit.
+void takeSun(Session& session);
+// Ends what opening an environment or finding its sun began in the background, once that is done.
+void continueTask(Session& session);
+
 // To the file that it came from; asks for one when there is none. True when it is saved.
 bool saveRig(Session& session);
 bool saveRigAs(Session& session, const std::filesystem::path& file);

@@ -58,7 +58,7 @@ void storeState(Session& session, std::size_t slot, const std::string& name, con
     if (session.picture && session.picture->full && session.picture->version == session.edits.version() &&
         document == session.document()) {
         AsideResult there{slot == 0 ? kPictureA : kPictureB, session.picture->linear, {}};
-        there.display = toDisplay(*there.linear, document.rig.exposure);
+        there.display = toDisplay(*session.picture->composed, document.rig.exposure);
         takeStatePicture(session, std::move(there));
     } else {
         requestPicture(session, slot);

@@ -34,6 +34,85 @@ Rig effectiveRig(const Document& document) {
     return rig;
 }
 
+void applyQuality(const Quality& quality, const MeasuredFront& front, Rig& rig, RenderSettings& settings) {
+    if (const MeasuredSetting* chosen = measuredOf(quality, front); quality.tolerance > 0 && chosen) {
+        Scene unused;  // of settings that repeat characters, which none in a front does
+        applySetting(settingForSize(chosen->setting, front, settings.width, settings.height), unused, rig, settings);
+        return;
+    }
+    settings.irradianceSize = quality.irradianceSize;
+    settings.gaussians = quality.gaussians;
+    settings.merge = quality.merge;
+    settings.chain = quality.chain;
+    settings.taps = quality.taps;
+}
+
+const MeasuredSetting* measuredOf(const Quality& quality, const MeasuredFront& front) {
+    if (quality.tolerance > 0) {
+        const MeasuredSetting* chosen = cheapestWithin(front, quality.tolerance);
+        return chosen ? chosen : closest(front);
+    }
+    Setting own;
+    own.irradianceSize = quality.irradianceSize;
+    own.gaussians = quality.gaussians;
+    own.merge = kMergeNames[static_cast<int>(quality.merge)];
+    own.chain = kChainNames[static_cast<int>(quality.chain)];
+    own.taps = quality.taps == Quality{}.taps ? 0 : quality.taps;
+    const auto found = std::find_if(front.settings.begin(), front.settings.end(), [&](const MeasuredSetting& row) {
+        own.name = row.setting.name;
+        return row.setting == own;
+    });
+    return found == front.settings.end() ? nullptr : &*found;
+}
+
+int takeSunOut(Document& document, const Light& sun) {
+    Light light = sun;
+    light.name = uniqueLightName(document.rig, sun.name);
+    document.rig.environment.sunRemoved = true;
+    document.rig.lights.push_back(light);
+    document.solo.resize(document.rig.lights.size(), false);
+    return static_cast<int>(document.rig.lights.size()) - 1;
+}
+
+void addGaussian(skin::Profile& profile) {
+    if (profile.gaussians.size() >= std::size_t(skin::kMaxGaussians)) return;
+    double widest = 0.01;  // mm²
+    for (const skin::Gaussian& gaussian : profile.gaussians) widest = std::max(widest, gaussian.variance);
+    profile.gaussians.push_back({3 * widest, glm::dvec3(0)});
+}
+
+void removeGaussian(skin::Profile& profile, std::size_t index) {
+    if (profile.gaussians.size() <= 1 || index >= profile.gaussians.size()) return;
+    profile.gaussians.erase(profile.gaussians.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+void setProfile(Document& document, std::size_t material, const skin::Profile& profile) {
+    if (material >= document.skin.size() || !document.skin[material] || profile.gaussians.empty()) return;
+    skin::Profile held = profile;
+    const glm::dvec3 total = skin::totalWeight(held);
+    for (int c = 0; c < 3; ++c) {
+        if (!(total[c] > 1)) continue;
+        for (skin::Gaussian& gaussian : held.gaussians) gaussian.weight[c] /= total[c];
+    }
+    const glm::dvec3 left = skin::totalWeight(held);
+    if (!(left.x + left.y + left.z > 0)) return;  // skin that gives nothing back is no skin
+    document.skin[material]->profile = held;
+}
+
+skin::Profile normalized(const skin::Profile& profile) {
+    skin::Profile result = skin::sorted(profile);
+    const glm::dvec3 total = skin::totalWeight(result);
+    for (skin::Gaussian& gaussian : result.gaussians) {
+        for (int c = 0; c < 3; ++c) {
+            if (total[c] > 0) gaussian.weight[c] /= total[c];
+        }
+    }
+    // A channel without any weight scatters least.
+    for (int c = 0; c < 3; ++c)
+        if (!(total[c] > 0) && !result.gaussians.empty()) result.gaussians.front().weight[c] = 1;
+    return result;
+}
+
 int addLight(Document& document, LightType type) {
     Light light;
     light.name = uniqueLightName(document.rig, "light");

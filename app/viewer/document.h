@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "app/viewer/orbit_camera.h"
+#include "renderer/frame/background.h"
+#include "renderer/frame/renderer.h"
+#include "renderer/measure/front.h"
 #include "renderer/scene/scene.h"
 
 namespace cutis {
@@ -28,6 +31,17 @@ struct View {
     bool operator==(const View&) const = default;
 };
 
+// How exactly pictures are computed.
+struct Quality {
+    double tolerance = 0;    // of the diffuse light; above 0 it chooses the rest, as --tolerance does
+    int irradianceSize = 0;  // as RenderSettings has them
+    int gaussians = 0;
+    Merge merge = Merge::min;
+    Chain chain = Chain::exact;
+    int taps = RenderSettings{}.taps;
+    bool operator==(const Quality&) const = default;
+};
+
 struct Document {
     std::string scene;              // file, or "default"; empty before the first is loaded
     std::filesystem::path rigFile;  // where the rig is saved; empty: nowhere yet
@@ -35,11 +49,31 @@ struct Document {
     std::vector<bool> solo;         // per light: while any is set, only those shine. Not part of a rig file
     std::vector<std::optional<SkinMaterial>> skin;  // per material of the scene; unset: not skin
     View view;
+    Background background = Background::none;
+    Quality quality;
     bool operator==(const Document&) const = default;
 };
 
 // The rig that lights the picture: muted lights off, and while some are solo, all others off, solo ones on.
 Rig effectiveRig(const Document& document);
+
+// Puts the quality into the settings of a picture and, where a tolerance chooses them, into the samples of its
+// rig. Where nothing in `front` is close enough it takes what is closest.
+void applyQuality(const Quality& quality, const MeasuredFront& front, Rig& rig, RenderSettings& settings);
+// What was measured of that quality; nullptr when nothing was.
+const MeasuredSetting* measuredOf(const Quality& quality, const MeasuredFront& front);
+
+// Takes the sun out of the environment: it shines without, and a light named like it, which is returned, gives
+// what it gave.
+int takeSunOut(Document& document, const Light& sun);
+
+// Of a material's profile. A Gaussian more, wider than the others, without weight; none less than one.
+void addGaussian(skin::Profile& profile);
+void removeGaussian(skin::Profile& profile, std::size_t index);
+// A material's profile, its weights held to what a profile may be: no channel gives back more than it gets.
+void setProfile(Document& document, std::size_t material, const skin::Profile& profile);
+// Sorts by variance and scales the weights of each channel so that they sum to 1: the skin takes no light away.
+skin::Profile normalized(const skin::Profile& profile);
 
 // Adds a light and returns its index. A placed spot of a useful brightness, in front of everyone.
 int addLight(Document& document, LightType type);

@@ -80,6 +80,7 @@ constexpr HotKey kHotKeys[] = {
     {GLFW_KEY_X, 0, "X", "Light mixer", [](Session& s) { s.mixer.shown = !s.mixer.shown; }},
     {GLFW_KEY_L, 0, "L", "Place the chosen light by dragging",
      [](Session& s) { s.placing = s.placing ? std::nullopt : std::optional(PlaceBy::highlight); }},
+    {GLFW_KEY_F5, 0, "F5", "Compile the shaders anew", [](Session& s) { s.reloadShaders = true; }},
     {GLFW_KEY_TAB, 0, "Tab", "Panels", [](Session& s) { s.showPanels = !s.showPanels; }},
     {GLFW_KEY_H, 0, "H", "Light handles", [](Session& s) { s.showHandles = !s.showHandles; }},
 };

@@ -33,6 +33,7 @@ void request(Session& session, std::size_t index) {
     alone.solo.assign(alone.rig.lights.size(), false);
     try {
         AsideJob job{kLightPictures + static_cast<int>(index), stateFor(session, alone)};
+        job.state.background = Background::none;  // it would be in every light's picture
         job.state.settings.width = std::max(job.state.settings.width / kReduction, 1);
         job.state.settings.height = std::max(job.state.settings.height / kReduction, 1);
         session.asideJobs.push_back(std::move(job));
@@ -64,7 +65,7 @@ void renew(Session& session) {
 }  // namespace
 
 bool mixShows(const Session& session) {
-    return session.mixer.shown && session.mixer.complete() && session.overlay.empty() && sameView(session) &&
+    return session.mixer.shown && session.mixer.complete() && session.overlay.aov.empty() && sameView(session) &&
            canMix(session.mixer.contributions, session.document());
 }
 

@@ -16,13 +16,23 @@ constexpr Overlay kOverlays[] = {
     {"diffuse", "Diffuse", "light that left the skin diffusely, exposed"},
     {"specular", "Specular", "light that was reflected, exposed"},
     {"irradiance", "Irradiance", "light that arrives, over pi, exposed"},
+    {kInspectedName, "Blurred level", "the light within the skin, blurred to the width of one Gaussian, over pi, exposed",
+     Inspect::What::level},
+    {kInspectedName, "Shadow", "of the chosen light: white where it arrives, black where it does not",
+     Inspect::What::shadow},
     {"thickness", "Thickness", "white 0 mm, through yellow and red, black 30 mm and more"},
     {"albedo", "Albedo", "as sRGB"},
     {"normal", "Normal", "red +X, green +Y, blue +Z"},
     {"depth", "Depth", "white the nearest, black the farthest"},
     {"character", "Character", "one colour a character"},
+    {kInspectedName, "Stretch", "of the atlas: black even, through red and yellow, white 4 times longer one way",
+     Inspect::What::stretch},
+    {kInspectedName, "Texel density", "of the atlas: black 0, through red and yellow, white 8 texels a millimetre",
+     Inspect::What::texelDensity},
 };
 
+constexpr float kStretched = 4;  // times as long as across
+constexpr float kDense = 8;      // texels per millimetre
 constexpr float kThick = 30;  // mm: nothing shines through more
 
 std::uint8_t toByte(float value) {
@@ -72,15 +82,34 @@ DisplayPicture showDepth(const Picture& values) {
     });
 }
 
+DisplayPicture showInspected(const Inspect& inspect, const Picture& values, float gain) {
+    switch (inspect.what) {
+        case Inspect::What::stretch:
+            return paint(values, [](const float* p) {
+                return *p > 0 ? heat((*p - 1) / (kStretched - 1)) : glm::vec3(0);
+            });
+        case Inspect::What::texelDensity:
+            return paint(values, [](const float* p) { return heat(*p / kDense); });
+        case Inspect::What::shadow:
+            return paint(values, [](const float* p) { return glm::vec3(*p); });
+        default:
+            return paint(values, [=](const float* p) {
+                return encode(glm::min(toneMapNeutral(glm::vec3(p[0], p[1], p[2]) * gain * 0.318310f), 1.0f));
+            });
+    }
+}
+
 }  // namespace
 
 std::span<const Overlay> overlays() {
     return kOverlays;
 }
 
-DisplayPicture showAov(const std::string& aov, const Picture& values, double exposure) {
+DisplayPicture showAov(const Shown& shown, const Picture& values, double exposure) {
+    const std::string& aov = shown.aov;
     const float gain = static_cast<float>(std::exp2(exposure));
     const auto rgb = [](const float* p) { return glm::vec3(p[0], p[1], p[2]); };
+    if (aov == kInspectedName) return showInspected(shown.inspect, values, gain);
     if (aov == "thickness")
         return paint(values, [](const float* p) { return *p > 0 ? heat(1 - *p / kThick) : glm::vec3(0); });
     if (aov == "depth") return showDepth(values);

@@ -9,6 +9,7 @@
 #include "app/viewer/document.h"
 #include "app/viewer/overlay.h"
 #include "renderer/scene/environment.h"
+#include "renderer/scene/environment_sun.h"
 #include "renderer/scene/light_samples.h"
 
 namespace cutis::app {
@@ -21,7 +22,8 @@ bool sameCamera(const Camera& a, const Camera& b) {
 
 bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
     return a.width == b.width && a.height == b.height && a.irradianceSize == b.irradianceSize &&
-           a.gaussians == b.gaussians && a.merge == b.merge && a.chain == b.chain && a.taps == b.taps;
+           a.gaussians == b.gaussians && a.lightMapSize == b.lightMapSize && a.merge == b.merge &&
+           a.chain == b.chain && a.taps == b.taps;
 }
 
 // All that lights the scene: what is left is the camera, the exposure and what is shown.
@@ -67,16 +69,24 @@ RenderState draftOf(RenderState state) {
     return state;
 }
 
-DisplayPicture displayOf(const RenderState& state, const RenderResult& rendered) {
-    const auto found = rendered.aovs.find(state.overlay);
-    return found == rendered.aovs.end() ? toDisplay(rendered.picture, state.rig.exposure)
-                                        : showAov(state.overlay, found->second, state.rig.exposure);
+// Other samples of its lights would light it differently.
+bool hasSoftShadows(const RenderState& state) {
+    const EnvironmentSettings& environment = state.rig.environment;
+    return (environment.enabled && !environment.file.empty()) ||
+           std::any_of(state.rig.lights.begin(), state.rig.lights.end(),
+                       [](const Light& light) { return light.enabled && sampleCount(light) > 1; });
 }
 
 }  // namespace
 
 RenderWorker::RenderWorker(std::function<Renderers()> open, std::function<void()> wake)
-    : open_(std::move(open)), wake_(std::move(wake)), thread_([this] { run(); }) {}
+    : open_(std::move(open)),
+      wake_(std::move(wake)),
+      shadows_([this] {
+          { const std::lock_guard lock(mutex_); }  // whoever is about to wait must not miss this
+          changed_.notify_all();
+      }),
+      thread_([this] { run(); }) {}
 
 RenderWorker::~RenderWorker() {
     {
@@ -85,6 +95,7 @@ RenderWorker::~RenderWorker() {
     }
     changed_.notify_all();
     thread_.join();
+    shadows_.wait();
 }
 
 void RenderWorker::show(std::uint64_t version, RenderState state) {
@@ -129,6 +140,16 @@ WorkerStatus RenderWorker::status() const {
     return status;
 }
 
+void RenderWorker::restart() {
+    {
+        const std::lock_guard lock(mutex_);
+        restarts_ = true;
+        result_.reset();
+        status_.error.clear();
+    }
+    changed_.notify_all();
+}
+
 bool RenderWorker::stale() const {
     const std::lock_guard lock(mutex_);
     return ended_ || next_.has_value();
@@ -138,26 +159,38 @@ void RenderWorker::run() {
     for (;;) {
         std::optional<Job> job;
         std::optional<AsideJob> aside;
+        bool restarts = false;
         {
             std::unique_lock lock(mutex_);
-            changed_.wait(lock, [this] { return ended_ || next_.has_value() || !aside_.empty(); });
+            changed_.wait(lock, [this] {
+                return ended_ || next_.has_value() || !aside_.empty() || canRefine();
+            });
             if (ended_) break;
             status_.working = true;
+            restarts = std::exchange(restarts_, false);
             if (next_) {
                 job = std::exchange(next_, std::nullopt);
-            } else {
+            } else if (!aside_.empty()) {
                 aside = std::move(aside_.front());
                 aside_.pop_front();
             }
         }
         std::string error;
         try {
+            if (restarts) closeRenderers();
             if (!renderers_.view) renderers_ = open_();
-            job ? refine(*job) : renderNextAside(*aside);
+            if (job) {
+                show(*job);
+            } else if (aside) {
+                renderNextAside(*aside);
+            } else if (canRefine()) {  // unless a restart has ended it
+                refineOnce();
+            }
         } catch (const std::bad_alloc&) {
             error = "out of memory: the scene or the picture is too large for this machine";
         } catch (const std::exception& problem) {
             error = problem.what();
+            refinement_.reset();
             // Nothing more comes from a lost device: the next picture opens one anew.
             if (error.find("device was lost") != std::string::npos) renderers_ = {};
         }
@@ -165,11 +198,19 @@ void RenderWorker::run() {
             const std::lock_guard lock(mutex_);
             status_.busy = status_.working = false;
             if (job || !error.empty()) status_.error = error;
+            if (shadows_.busy()) status_.working = true;
             if (aside && !error.empty()) asideResults_.push_back({aside->id, nullptr, {}});
         }
         wake_();
     }
-    renderers_ = {};  // its device goes on the thread that it lived on
+    closeRenderers();  // a device goes on the thread that it lived on
+}
+
+void RenderWorker::closeRenderers() {
+    shadows_.close();
+    refinement_.reset();
+    shown_.reset();
+    renderers_ = {};
 }
 
 bool RenderWorker::moved(const Job& job) const {
@@ -184,9 +225,10 @@ double RenderWorker::firstFraction(const Job& job) const {
     return seconds / 4 <= kPreview ? 0.5 : seconds / 16 <= kPreview ? 0.25 : 0.125;
 }
 
-void RenderWorker::refine(const Job& job) {
+void RenderWorker::show(const Job& job) {
+    refinement_.reset();
     if (showAgain(job)) return;
-    applySkin(*job.state.scene, job.state.skin);
+    putSkin(job.state);
     const bool onlyMoved = moved(job);
     const double first = firstFraction(job);
     if (first < 1) {
@@ -200,46 +242,68 @@ void RenderWorker::refine(const Job& job) {
     WorkerResult result = render(job, 1, false);
     (onlyMoved ? moveSeconds_ : changeSeconds_) = result.seconds;
     shown_ = job;
-    full_ = result;
-    full_.display = {};
-    accumulate(job, std::move(result));
+    showFull(std::move(result));
 }
 
-// Another exposure of the picture that is there needs no rendering.
+// Another exposure of the picture that is there, or another background, needs no rendering.
 bool RenderWorker::showAgain(const Job& job) {
-    if (!moved(job) || !job.state.overlay.empty() || !shown_->state.overlay.empty() ||
+    if (!moved(job) || !job.state.overlay.aov.empty() || !shown_->state.overlay.aov.empty() ||
         !sameCamera(shown_->state.camera, job.state.camera))
         return false;
     shown_ = job;
-    full_.version = job.version;
     WorkerResult result = full_;
-    result.display = toDisplay(*result.linear, job.state.rig.exposure);
-    accumulate(job, std::move(result));
+    result.version = job.version;
+    result.composed = overBackground(job.state, result.linear);
+    result.display = toDisplay(*result.composed, job.state.rig.exposure);
+    showFull(std::move(result));
     return true;
 }
 
-// Shows the picture, then the mean of ever more like it, until something else is asked for.
-void RenderWorker::accumulate(const Job& job, WorkerResult first) {
-    const std::shared_ptr<const Picture> picture = first.linear;
-    WorkerResult result = std::move(first);
+// The full picture of shown_. It is refined from then on, one picture at a time, whenever nothing else is asked
+// for.
+void RenderWorker::showFull(WorkerResult result) {
+    const bool refines = shown_->state.overlay.aov.empty();
     result.refined = 1;
-    publish(result);
-    if (!job.state.overlay.empty()) return;
-    Picture sum = *picture;
-    for (int index = 1; index < kRefinements; ++index) {
-        {
-            const std::lock_guard lock(mutex_);
-            if (ended_ || next_ || !aside_.empty()) return;
-        }
-        Job turned = job;
-        turned.state.camera = jittered(job.state.camera, index, job.state.settings.height);
-        const WorkerResult more = render(turned, 1, false);
-        if (more.linear->values.size() != sum.values.size()) return;
-        for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += more.linear->values[i];
-        result.refined = index + 1;
-        result.display = toDisplay(sum, job.state.rig.exposure - std::log2(result.refined));
-        publish(result);
+    result.shadowSets = 1;
+    full_ = result;
+    full_.display = {};
+    if (refines) refinement_.emplace(result.composed, hasSoftShadows(shown_->state) && renderers_.openShadows);
+    publish(std::move(result));
+}
+
+bool RenderWorker::canRefine() const {
+    return refinement_ && refinement_->next() != Refinement::Step::none && !shadows_.busy();
+}
+
+void RenderWorker::refineOnce() {
+    Job job = *shown_;
+    if (refinement_->next() == Refinement::Step::pixels) {
+        job.state.camera =
+            jittered(job.state.camera, refinement_->pixelPictures(), job.state.settings.height);
+        refinement_->add(*render(job, 1, false).composed);
+    } else if (std::optional<ShadowPicture> more = shadows_.take()) {
+        if (more->version != job.version) return;  // of a state that is no more
+        const auto linear = std::make_shared<const Picture>(std::move(more->picture));
+        refinement_->add(*overBackground(job.state, linear));
+    } else {
+        job.state.settings.seed = static_cast<std::uint32_t>(refinement_->shadowPictures());
+        shadows_.start(job.version, inputOf(job.state), job.state.settings, job.state.scene,
+                       renderers_.openShadows);
+        return;
     }
+    WorkerResult result = full_;
+    result.refined = refinement_->pixelPictures();
+    result.shadowSets = refinement_->shadowPictures();
+    result.converged = refinement_->next() == Refinement::Step::none;
+    result.display = toDisplay(refinement_->mean(), job.state.rig.exposure);
+    publish(std::move(result));
+}
+
+// What renders shadows on its own thread reads the scene: it is not changed before that is done.
+void RenderWorker::putSkin(const RenderState& state) {
+    if (skinOf(*state.scene) == state.skin) return;
+    shadows_.wait();
+    applySkin(*state.scene, state.skin);
 }
 
 void RenderWorker::publish(WorkerResult result) {
@@ -257,7 +321,8 @@ WorkerResult RenderWorker::render(const Job& job, double fraction, bool draft) {
     RenderSettings settings = job.state.settings;
     settings.width = std::max(1, static_cast<int>(std::lround(settings.width * fraction)));
     settings.height = std::max(1, static_cast<int>(std::lround(settings.height * fraction)));
-    if (!job.state.overlay.empty()) settings.aovs = {job.state.overlay};
+    settings.inspect = job.state.overlay.inspect;
+    if (const std::string& aov = job.state.overlay.aov; !aov.empty() && aov != kInspectedName) settings.aovs = {aov};
     RenderResult rendered;
     if (draft) {
         rendered = draw(renderers_.draft, draftOf(job.state), draftOf(settings));
@@ -268,18 +333,22 @@ WorkerResult RenderWorker::render(const Job& job, double fraction, bool draft) {
     WorkerResult result;
     result.version = job.version;
     result.full = fraction == 1;
-    result.display = displayOf(job.state, rendered);
     result.linear = std::make_shared<const Picture>(std::move(rendered.picture));
+    result.composed = overBackground(job.state, result.linear);
+    const auto overlay = rendered.aovs.find(job.state.overlay.aov);
+    result.display = overlay == rendered.aovs.end()
+                         ? toDisplay(*result.composed, job.state.rig.exposure)
+                         : showAov(job.state.overlay, overlay->second, job.state.rig.exposure);
     result.stats = std::move(rendered.stats);
     result.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
     return result;
 }
 
 void RenderWorker::renderNextAside(const AsideJob& job) {
-    applySkin(*job.state.scene, job.state.skin);
+    putSkin(job.state);
     RenderResult rendered = draw(renderers_.draft, job.state, job.state.settings);
-    AsideResult result{job.id, nullptr, toDisplay(rendered.picture, job.state.rig.exposure)};
-    result.linear = std::make_shared<const Picture>(std::move(rendered.picture));
+    AsideResult result{job.id, std::make_shared<const Picture>(std::move(rendered.picture)), {}};
+    result.display = toDisplay(*overBackground(job.state, result.linear), job.state.rig.exposure);
     const std::lock_guard lock(mutex_);
     asideResults_.push_back(std::move(result));
 }
@@ -294,22 +363,45 @@ RenderResult RenderWorker::draw(const RenderFunction& renderer, const RenderStat
         begun_ = Clock::now();
     }
     wake_();
-    const RenderInput input{.scene = state.scene.get(),
-                            .rig = state.rig,
-                            .environment = environmentOf(state.rig),
-                            .camera = state.camera};
-    return renderer(input, settings);
+    return renderer(inputOf(state), settings);
+}
+
+RenderInput RenderWorker::inputOf(const RenderState& state) {
+    return {.scene = state.scene.get(),
+            .rig = state.rig,
+            .environment = environmentOf(state.rig),
+            .environmentRevision = environmentRevision_,
+            .camera = state.camera};
 }
 
 const Environment* RenderWorker::environmentOf(const Rig& rig) {
     const EnvironmentSettings& settings = rig.environment;
     if (!settings.enabled || settings.file.empty()) return nullptr;
-    if (settings.file != environmentFile_ || !environment_) {
-        environment_.reset();
-        environment_ = loadEnvironment(settings.file);
-        environmentFile_ = settings.file;
-    }
+    const bool known = environment_ && settings.file == environmentFile_ && settings.sunRemoved == sunRemoved_;
+    if (known) return &*environment_;
+    shadows_.wait();
+    environment_.reset();
+    background_.reset();
+    Environment loaded = loadEnvironment(settings.file);
+    if (settings.sunRemoved) removeSun(loaded);
+    environment_ = std::move(loaded);
+    environmentFile_ = settings.file;
+    sunRemoved_ = settings.sunRemoved;
+    ++environmentRevision_;
     return &*environment_;
+}
+
+std::shared_ptr<const Picture> RenderWorker::overBackground(const RenderState& state,
+                                                            const std::shared_ptr<const Picture>& picture) {
+    const Environment* environment = environmentOf(state.rig);
+    if (!environment || state.background == Background::none) return picture;
+    if (!background_ || backgroundKind_ != state.background) {
+        background_.emplace(*environment, state.background);
+        backgroundKind_ = state.background;
+    }
+    Picture composed = *picture;
+    background_->paint(composed, state.camera, state.rig.environment);
+    return std::make_shared<const Picture>(std::move(composed));
 }
 
 }  // namespace cutis::app

@@ -14,6 +14,10 @@
 #include <vector>
 
 #include "app/viewer/display_picture.h"
+#include "app/viewer/overlay.h"
+#include "app/viewer/refinement.h"
+#include "app/viewer/shadow_pictures.h"
+#include "renderer/frame/background.h"
 #include "renderer/frame/renderer.h"
 
 namespace cutis::app {
@@ -25,17 +29,22 @@ struct RenderState {
     Rig rig;                                        // placements resolved, solo and mute applied
     Camera camera;
     RenderSettings settings;  // width and height of the full picture
-    std::string overlay;      // the AOV to show in place of the picture; empty: the picture
+    Shown overlay;            // no AOV: the picture
+    Background background = Background::none;
 };
 
 // A picture on its way to the screen.
 struct WorkerResult {
     std::uint64_t version = 0;  // of the state that it shows
     bool full = false;          // at full resolution
-    int refined = 0;  // of a full picture: pictures, each with samples elsewhere, that it is the mean of
+    // Of a full picture: how many pictures, each seen from elsewhere within the pixels, and how many sets of
+    // samples of lights and sky it is the mean of.
+    int refined = 0, shadowSets = 0;
+    bool converged = false;
     DisplayPicture display;
     std::shared_ptr<const Picture>
         linear;  // what `cutis render` gives: of a full picture not the mean but the first
+    std::shared_ptr<const Picture> composed;  // the same over the background: what is shown and saved
     RenderStats stats;
     double seconds = 0;  // wall time of this picture
 };
@@ -61,13 +70,12 @@ struct WorkerStatus {
     std::string error;          // why the last state could not be rendered; empty: it could
 };
 
-// How a picture is made of a state; the environment is the state's, loaded.
-using RenderFunction = std::function<RenderResult(const RenderInput&, const RenderSettings&)>;
-
 // What renders the view, and what renders drafts of it and pictures beside it: apart, so that each keeps what
 // its next picture can use.
 struct Renderers {
     RenderFunction view, draft;
+    // Opens one for shadows from more samples, on a device of its own. Empty: shadows are not refined.
+    std::function<RenderFunction()> openShadows = {};
 };
 
 class RenderWorker {
@@ -92,10 +100,11 @@ class RenderWorker {
     std::optional<WorkerResult> takeResult();
     std::vector<AsideResult> takeAside();
     WorkerStatus status() const;
+    // Opens all that renders anew before the next picture, which is made from nothing: shaders have changed.
+    void restart();
 
     static constexpr double kInstant = 0.1, kPreview = 0.25;  // seconds
     static constexpr double kDraft = 0.25;                    // of width and height
-    static constexpr int kRefinements = 8;                    // full pictures that are averaged
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -105,9 +114,13 @@ class RenderWorker {
     };
 
     void run();
-    void refine(const Job& job);
-    void accumulate(const Job& job, WorkerResult first);
+    void show(const Job& job);
     bool showAgain(const Job& job);
+    void showFull(WorkerResult result);
+    bool canRefine() const;
+    void closeRenderers();
+    void refineOnce();
+    void putSkin(const RenderState& state);
     void renderNextAside(const AsideJob& job);
     void publish(WorkerResult result);
     bool stale() const;
@@ -116,7 +129,10 @@ class RenderWorker {
     WorkerResult render(const Job& job, double fraction, bool draft);
     RenderResult draw(const RenderFunction& renderer, const RenderState& state,
                       const RenderSettings& settings);
+    RenderInput inputOf(const RenderState& state);
     const Environment* environmentOf(const Rig& rig);
+    std::shared_ptr<const Picture> overBackground(const RenderState& state,
+                                                  const std::shared_ptr<const Picture>& picture);
 
     std::function<Renderers()> open_;
     std::function<void()> wake_;
@@ -129,7 +145,7 @@ class RenderWorker {
     std::vector<AsideResult> asideResults_;
     WorkerStatus status_;
     Clock::time_point begun_;
-    bool ended_ = false;
+    bool ended_ = false, restarts_ = false;
 
     // The worker's own.
     Renderers renderers_;
@@ -138,7 +154,13 @@ class RenderWorker {
     double moveSeconds_ = -1, changeSeconds_ = -1;  // of the last full picture after a camera's move, and
                                                     // after any other change; negative: none yet
     std::string environmentFile_;
+    bool sunRemoved_ = false;
+    std::uint64_t environmentRevision_ = 0;
     std::optional<Environment> environment_;
+    Background backgroundKind_ = Background::none;
+    std::optional<BackgroundPainter> background_;  // of environment_
+    std::optional<Refinement> refinement_;         // of shown_
+    ShadowPictures shadows_;
     std::thread thread_;  // last: starts when all else is there
 };
 

@@ -38,7 +38,7 @@ std::filesystem::path rigFileOf(const Session& session) {
 
 std::string commandLine(Session& session) {
     const Document& document = session.document();
-    const RenderSettings& settings = session.request.settings;
+    const Quality& quality = document.quality;
     const auto pixels = std::to_string(session.view.width) + 'x' + std::to_string(session.view.height);
     std::string line = "cutis render " + shellWord(document.scene) + " -o picture.png --size " + pixels;
     line += " --rig " + shellWord(rigFileOf(session).string());
@@ -52,11 +52,18 @@ std::string commandLine(Session& session) {
     const View& view = document.view;
     line += " --camera " + shellWord(view.camera.empty() ? toSelector(view.orbit) : view.camera);
     if (session.request.skin) line += " --skin " + shellWord(*session.request.skin);
-    if (settings.irradianceSize) line += " --irradiance-size " + std::to_string(settings.irradianceSize);
-    if (settings.gaussians) line += " --gaussians " + std::to_string(settings.gaussians);
-    if (settings.merge == Merge::opposite) line += " --merge opposite";
-    if (settings.chain == Chain::published) line += " --chain published";
-    if (settings.taps != RenderSettings{}.taps) line += " --taps " + std::to_string(settings.taps);
+    const auto nameOf = [](const auto& names, auto value) { return std::string(names[static_cast<int>(value)]); };
+    if (document.background != Background::none)
+        line += " --background " + nameOf(kBackgroundNames, document.background);
+    if (quality.tolerance > 0) {
+        char digits[32];
+        return line + " --tolerance " + std::string(digits, std::to_chars(digits, digits + 32, quality.tolerance).ptr);
+    }
+    if (quality.irradianceSize) line += " --irradiance-size " + std::to_string(quality.irradianceSize);
+    if (quality.gaussians) line += " --gaussians " + std::to_string(quality.gaussians);
+    if (quality.merge != Quality{}.merge) line += " --merge " + nameOf(kMergeNames, quality.merge);
+    if (quality.chain != Quality{}.chain) line += " --chain " + nameOf(kChainNames, quality.chain);
+    if (quality.taps != Quality{}.taps) line += " --taps " + std::to_string(quality.taps);
     return line;
 }
 

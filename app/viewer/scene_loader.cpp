@@ -9,6 +9,7 @@
 #include "app/inputs.h"
 #include "renderer/core/error.h"
 #include "renderer/core/suggest.h"
+#include "renderer/gpu/device.h"
 #include "renderer/scene/characters.h"
 #include "renderer/scene/gltf.h"
 
@@ -58,11 +59,23 @@ View viewOf(const Request& request, const Inputs& inputs) {
     return view;
 }
 
+// What is known of errors on the device that renders. That a measurement cannot be read is no reason not to open
+// the scene.
+KnownFront frontOf(const Request& request, const Inputs& inputs) {
+    try {
+        if (anyMeasurement()) return knownFront(inputs, gpu::chosenDevice(request.device));
+    } catch (const Error& error) {
+        warn(error.what());
+    }
+    return {defaultFront(), false};
+}
+
 LoadedScene load(Request request) {
     LoadedScene loaded;
     loaded.name = request.operands.at(0);
     const std::vector<std::string> solo = std::exchange(request.lights, {});
     Inputs inputs = loadInputs(request);
+    loaded.known = frontOf(request, inputs);
     Document& document = loaded.document;
     document.scene = loaded.name;
     const bool environment = !inputs.environmentFile.empty();
@@ -74,6 +87,13 @@ LoadedScene load(Request request) {
     soloLights(document, solo);
     document.skin = skinOf(inputs.scene);
     document.view = viewOf(request, inputs);
+    document.background = request.background;
+    document.quality = {.tolerance = 0,
+                        .irradianceSize = request.settings.irradianceSize,
+                        .gaussians = request.settings.gaussians,
+                        .merge = request.settings.merge,
+                        .chain = request.settings.chain,
+                        .taps = request.settings.taps};
     loaded.geometry = std::make_shared<Scene>(withoutTexels(inputs.scene));
     loaded.scene = std::make_shared<Scene>(std::move(inputs.scene));
     return loaded;

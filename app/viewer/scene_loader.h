@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/options.h"
+#include "app/tolerance.h"
 #include "app/viewer/document.h"
 
 namespace cutis::app {
@@ -19,6 +20,7 @@ struct LoadedScene {
     std::shared_ptr<Scene> scene;     // with texels: for the renderer alone
     std::shared_ptr<Scene> geometry;  // the same without texels: for the interface
     Document document;                // the scene as it opens
+    KnownFront known{defaultFront(), false};  // of the error of settings for it
     std::string error;                // not empty: nothing was loaded, for this reason
 };
 

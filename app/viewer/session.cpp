@@ -62,6 +62,8 @@ RenderState stateFor(const Session& session, const Document& document) {
     state.settings.width = session.view.width;
     state.settings.height = session.view.height;
     state.camera = cameraOf(session, document);
+    state.background = document.background;
+    applyQuality(document.quality, session.known.front, state.rig, state.settings);
     resolvePlacements(state.rig, *session.geometry);
     return state;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/options.h"
+#include "app/tolerance.h"
 #include "app/viewer/edits.h"
 #include "app/viewer/mixer.h"
 #include "app/viewer/place_by_light.h"
@@ -73,6 +74,8 @@ struct Session {
     std::vector<std::optional<SkinMaterial>> derivedSkin;
     Rig derivedRig;
 
+    KnownFront known{defaultFront()};  // of the error of settings
+
     int selectedLight = 0, selectedMaterial = -1, selectedCharacter = -1;  // -1: none, everyone
     PixelRect room;  // between the panels: the view and bars about it
     PixelRect view;  // where the picture is, in pixels of the window
@@ -92,8 +95,7 @@ struct Session {
     double wipe = 0.5;  // of the picture's width
 
     MixerStrip mixer;
-    std::uint64_t quality = 0;                  // grows whenever the settings in `request` change
-    std::string overlay;                        // the AOV that is shown; empty: the picture
+    Shown overlay;                              // no AOV: the picture
     std::optional<PlaceBy> placing;             // dragging in the picture places the chosen light
     double pictureAspect = 0;                   // width over height; 0: fills the view
     std::vector<std::filesystem::path> recent;  // opened last, newest first
@@ -112,10 +114,13 @@ struct Session {
     std::string message;  // of the last action
     bool messageIsError = false;
     std::filesystem::path savingPicture;  // waits for the full picture; empty: none
+    // Something that takes longer than a frame: what it gives is run on the session once it is there.
+    std::future<std::function<void(Session&)>> task;
     std::future<std::string> writing;     // the picture on its way to disk; gives what to say
     std::string clipboard;                // what to put there; empty: nothing
     std::optional<Request> opening;       // a scene to load
     bool recoverable = false;             // a rig was left unsaved last time
+    bool reloadShaders = false;           // in the next frame
     bool quit = false;
 
     const Document& document() const { return edits.document(); }

@@ -69,6 +69,7 @@ void requestPresetThumbnails(Session& session) {
         try {
             AsideJob job{kPresetPictures + static_cast<int>(i), stateFor(session, document)};
             job.state.camera = toCamera(camera, aspect);
+            job.state.background = Background::none;
             job.state.settings.width = kThumbnailWidth;
             job.state.settings.height = kThumbnailHeight;
             job.state.settings.lightMapSize = 512;  // texels: the face is 60 pixels high
@@ -99,7 +100,7 @@ void EnvironmentThumbnails::start() {
         const std::vector<fs::path>& files = installedEnvironments();
         for (std::size_t i = 0; i < files.size() && !stop.stop_requested(); ++i) {
             try {
-                DisplayPicture small = shrink(loadEnvironment(files[i]));
+                DisplayPicture small = shrink(loadEnvironment(files[i], false));
                 const std::lock_guard lock(mutex_);
                 made_.emplace_back(static_cast<int>(i), std::move(small));
             } catch (const std::exception&) {  // choosing it will say what is wrong

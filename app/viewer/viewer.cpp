@@ -16,6 +16,7 @@
 #include "app/viewer/mixing.h"
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/scene_loader.h"
+#include "app/viewer/shader_reload.h"
 #include "app/viewer/thumbnails.h"
 #include "app/viewer/view_input.h"
 #include "app/viewer/view_layout.h"
@@ -42,18 +43,18 @@ Renderers openRenderers(const std::string& select) {
     gpu::DeviceOptions options;
     options.select = select;
     const auto device = std::make_shared<gpu::Device>(options);
-    const auto open = [&]() -> RenderFunction {
+    const auto open = [](std::shared_ptr<gpu::Device> on) -> RenderFunction {
         // The renderer goes before its device.
         struct Opened {
             std::shared_ptr<gpu::Device> device;
             Renderer renderer{*device};
         };
-        return [opened = std::make_shared<Opened>(device)](const RenderInput& input,
-                                                           const RenderSettings& settings) {
+        return [opened = std::make_shared<Opened>(std::move(on))](const RenderInput& input,
+                                                                  const RenderSettings& settings) {
             return opened->renderer.render(input, settings);
         };
     };
-    return {open(), open()};
+    return {open(device), open(device), [=] { return open(std::make_shared<gpu::Device>(options)); }};
 }
 
 class Viewer {
@@ -63,6 +64,7 @@ class Viewer {
                    request.uiScale, request.device}),
           loader_(Window::wake),
           environmentThumbnails_(Window::wake),
+          shaders_(CUTIS_SHADER_FOLDER, Window::wake),
           worker_([device = request.device] { return openRenderers(device); }, Window::wake) {
         session_.request = request;
         session_.uiScale = window_.uiScale();
@@ -112,8 +114,8 @@ class Viewer {
 
     double pause() const {
         if (ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || frames_ > 0) return kActive;
-        const bool working = loader_.loading() || session_.worker.busy || session_.writing.valid() ||
-                             session_.compareMode == CompareMode::blink || session_.comparing.valid() ||
+        const bool working = loader_.loading() || session_.worker.busy || session_.writing.valid() || session_.task.valid() ||
+                             shaders_.compiling() || session_.compareMode == CompareMode::blink || session_.comparing.valid() ||
                              waits_;
         return working ? kWorking : kIdle;
     }
@@ -152,16 +154,42 @@ class Viewer {
             session_.picture = std::move(*result);
         }
         for (AsideResult& result : worker_.takeAside()) takeAside(std::move(result));
+        takeShaders();
         for (auto& [place, picture] : environmentThumbnails_.take())
             session_.uploads.emplace_back(kEnvironmentPictures + place, std::move(picture));
         updateMixer(session_);
         updateDifference(session_);
+        continueTask(session_);
         continueSaving(session_);
         for (const auto& [number, picture] : std::exchange(session_.uploads, {})) {
             window_.setPicture(number, picture);
             session_.pictures.insert(number);
         }
         for (AsideJob& job : std::exchange(session_.asideJobs, {})) worker_.renderAside(std::move(job));
+    }
+
+    void takeShaders() {
+        shaders_.update(std::exchange(session_.reloadShaders, false));
+        if (const std::optional<ShaderReload::News> news = shaders_.take()) {
+            news->replaced ? session_.say(news->text) : session_.complain(news->text);
+            if (news->replaced) restartRenderers(true);
+        }
+        // Shaders that compile may still not fit the program: those of the build always do.
+        if (!shadersReplaced_) return;
+        if (!session_.worker.error.empty()) {
+            session_.complain("Shaders of the build are back: " + session_.worker.error);
+            gpu::replaceShaders({});
+            restartRenderers(false);
+        } else if (session_.picture && session_.picture->full && !session_.worker.busy) {
+            shadersReplaced_ = false;
+        }
+    }
+
+    void restartRenderers(bool replaced) {
+        shadersReplaced_ = replaced;
+        session_.picture.reset();
+        worker_.restart();
+        shownKey_.reset();
     }
 
     void takeAside(AsideResult result) {
@@ -183,9 +211,10 @@ class Viewer {
         session_.scene = loaded.scene;
         session_.openedScene = loaded.name;
         session_.loadedSkin = loaded.document.skin;
+        session_.known = loaded.known;
         session_.derivedVersion = 0;
         session_.selectedMaterial = session_.selectedCharacter = -1;
-        shownKey_ = {};
+        shownKey_.reset();
         worker_.forgetAside(0, std::numeric_limits<int>::max());
         session_.compared = {};
         session_.mixer.contributions.clear();
@@ -308,8 +337,10 @@ class Viewer {
         if (!session_.scene || session_.view.width <= 0 || session_.view.height <= 0 ||
             session_.document().scene != session_.openedScene)
             return;
-        const Key key{session_.edits.version(), session_.view.width, session_.view.height, session_.overlay,
-                      true};
+        // Another light's shadow is shown when another light is chosen.
+        if (session_.overlay.inspect.what == Inspect::What::shadow)
+            session_.overlay.inspect.index = std::max(session_.selectedLight, 0);
+        const Key key{session_.edits.version(), session_.view.width, session_.view.height, session_.overlay};
         waits_ = false;
         if (key == shownKey_) return;
         if (key.version != seenVersion_) {
@@ -344,9 +375,7 @@ class Viewer {
     struct Key {
         std::uint64_t version = 0;
         int width = 0, height = 0;
-        std::string overlay;
-        std::uint64_t quality = 0;
-        bool set = false;
+        Shown overlay;
         bool operator==(const Key&) const = default;
     };
 
@@ -355,7 +384,7 @@ class Viewer {
     SceneLoader loader_;
     bool opens_ = true;        // what is loading becomes the document
     std::string unavailable_;  // a scene that could not be loaded: not tried again by itself
-    Key shownKey_;
+    std::optional<Key> shownKey_;
     int frames_ = 0;  // to draw without a pause: ImGui answers a key in the frame after
     Clock::time_point autosaved_ = Clock::now();
     std::uint64_t autosavedVersion_ = 0;
@@ -363,6 +392,8 @@ class Viewer {
     std::uint64_t seenVersion_ = 0;
     bool waits_ = false;  // the mixer shows a change that is not rendered yet
     EnvironmentThumbnails environmentThumbnails_;
+    ShaderReload shaders_;
+    bool shadersReplaced_ = false;  // and no picture was made with them yet
     FrameTimes times_;
     RenderWorker worker_;  // last: it ends first
 };

@@ -4,10 +4,6 @@
 #include <cmath>
 
 namespace cutis {
-namespace {
-
-// Half extents of the picture at unit depth (perspective) or in metres (orthographic). The picture's own aspect wins
-// over the camera's: what the camera frames vertically stays.
 glm::dvec2 halfExtents(const Camera& camera, const glm::ivec2& pixels) {
     const double aspect = static_cast<double>(pixels.x) / pixels.y;
     if (camera.orthographic) {
@@ -17,8 +13,6 @@ glm::dvec2 halfExtents(const Camera& camera, const glm::ivec2& pixels) {
     const double y = std::tan(0.5 * camera.yfov);
     return {y * aspect, y};
 }
-
-}  // namespace
 
 shared::ViewCamera viewCamera(const Camera& camera, const glm::dvec3& origin, const Bounds& bounds,
                               const glm::ivec2& pixels) {

@@ -63,7 +63,7 @@ std::uint64_t hashEnvironment(const FrameContext& frame) {
     const RenderInput& input = *frame.input;
     return ContentHash()
         .add(frame.lighting.environment, input.environment, input.environmentRevision,
-             input.rig.environment.shadowSamples)
+             input.rig.environment.shadowSamples, frame.settings->seed)
         .value();
 }
 
@@ -127,7 +127,7 @@ InputHashes hashInputs(const FrameContext& frame) {
     set(Input::environmentPower, ContentHash().add(environment.intensity).value());
     set(Input::camera, hashCamera(frame.input->camera));
     set(Input::pictureSize, ContentHash().add(settings.width, settings.height).value());
-    set(Input::aovs, ContentHash().add(settings.aovs).value());
+    set(Input::aovs, ContentHash().add(settings.aovs).add(settings.inspect.what != Inspect::What::none).value());
     return hashes;
 }
 

@@ -79,7 +79,7 @@ void readLighting(FrameContext& frame) {
     const RenderInput& input = *frame.input;
     const EnvironmentSettings& settings = input.rig.environment;
     Lighting& lighting = frame.lighting;
-    lighting.samples = sampleLights(input.rig);
+    lighting.samples = sampleLights(input.rig, {.seed = frame.settings->seed});
     lighting.leftOut.clear();
     if (frame.settings->prune) leaveOutDarkSamples(frame);
     lighting.environment = nullptr;

@@ -19,10 +19,23 @@ class Device;
 // How thicknesses become one per texel (DESIGN §1.4). min: the smallest that any light sample sees. opposite: the distance
 // of the other side of the skin, from its shape alone: linear in the lights, and the environment shines through too.
 enum class Merge { min, opposite };
+inline constexpr const char* kMergeNames[] = {"min", "opposite"};
 
 // How light is diffused. exact: DESIGN §1.4, with its corrections. published: as GPU Gems 3, ch. 14 prints it (seven fixed
 // taps, stretch by two lengths, thickness stored in 8 bits), to compare with.
 enum class Chain { exact, published };
+inline constexpr const char* kChainNames[] = {"exact", "published"};
+
+// What the atlas holds, shown on the surface as the AOV kInspectedName: for looking into the passes. level: the
+// irradiance blurred to the variance of Gaussian `index`; stretch: how many times longer a texel is one way than
+// across; texelDensity: texels per millimetre; shadow: the share of light `index` of the rig that arrives.
+struct Inspect {
+    enum class What { none, level, stretch, texelDensity, shadow };
+    What what = What::none;
+    int index = 0;
+    bool operator==(const Inspect&) const = default;
+};
+inline constexpr const char* kInspectedName = "inspected";
 
 struct RenderSettings {
     int width = 1280, height = 720;
@@ -36,8 +49,9 @@ struct RenderSettings {
     double detail = 1;  // atlas and light maps are as fine as a picture of so many times the pixels along each side asks
     int repeats = 1;    // all of the frame is drawn so often, for its times alone
     bool prune = true;  // false: run also what could be left out, on neutral inputs
-    std::uint32_t seed = 0;
+    std::uint32_t seed = 0;  // other samples of area lights and of the sky; means over seeds converge
     std::vector<std::string> aovs;  // of kAovNames
+    Inspect inspect = {};
 };
 
 // Names that --aov takes, in the order that --help prints.

@@ -11,7 +11,7 @@ namespace {
 
 // Channels that an AOV has of the four that the shader writes.
 int aovChannels(int aov) {
-    constexpr int kChannels[kAovCount] = {3, 3, 3, 1, 3, 3, 3, 1, 1};
+    constexpr int kChannels[kAovCount] = {3, 3, 3, 1, 3, 3, 3, 1, 1, 3};
     return kChannels[aov];
 }
 
@@ -73,6 +73,7 @@ Readbacks recordReadbacks(const FrameContext& frame, bool lit) {
     Readbacks readbacks;
     readbacks.picture = frame.commands->readback(frame.target.picture);
     if (frame.target.aovs) readbacks.aovs = frame.commands->readback(frame.target.aovs);
+    readbacks.inspect = recordInspect(frame);
     readbacks.skin = lit && frame.skin.exitance;
     if (readbacks.skin) {
         readbacks.nonfinite = frame.commands->readback(frame.skin.nonfinite);
@@ -92,7 +93,12 @@ void takePictures(const FrameContext& frame, const Readbacks& readbacks, SkinFig
             if (frame.target.aovLayer[i] < 0) continue;
             const std::span layer = std::span(all).subspan(frame.target.aovLayer[i] * layerSize, layerSize);
             result.stats.nonfinite += countNonfinite(layer);
-            result.aovs[kAovNames[i]] = toPicture(layer, width, height, aovChannels(i));
+            Picture values = toPicture(layer, width, height, aovChannels(i));
+            if (i == kAovAtlas) {
+                result.aovs[kInspectedName] = lookUpInspected(frame.settings->inspect, readbacks.inspect, values);
+            } else {
+                result.aovs[kAovNames[i]] = std::move(values);
+            }
         }
     }
     if (readbacks.skin) {

@@ -4,12 +4,14 @@
 #include <vector>
 
 #include "renderer/frame/frame.h"
+#include "renderer/frame/inspect.h"
 #include "renderer/gpu/commands.h"
 
 namespace cutis {
 
 struct Readbacks {
     gpu::Readback picture, aovs, nonfinite, tileCounts;
+    InspectReadback inspect;
     bool skin = false;  // nonfinite and tileCounts are there
 };
 

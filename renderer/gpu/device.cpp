@@ -42,7 +42,8 @@ int rank(const DeviceInfo& info) {
     return static_cast<int>(std::find(std::begin(kOrder), std::end(kOrder), info.type) - std::begin(kOrder));
 }
 
-DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& select) {
+DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& asked) {
+    const std::string select = asked.empty() ? environment("CUTIS_DEVICE") : asked;
     if (devices.empty()) throw Error("device", "Vulkan finds none");
     std::string names;
     const DeviceInfo* best = nullptr;
@@ -109,6 +110,10 @@ void Device::close() {
     destroyInstance(instance);
 }
 
+DeviceInfo chosenDevice(const std::string& select) {
+    return chooseDevice(listDevices(), select);
+}
+
 void Device::open(const DeviceOptions& options) {
     const bool validation = options.validation || environment("CUTIS_VALIDATION") == "1";
     const Instance instance = createInstance(validation, options.instanceExtensions);
@@ -118,7 +123,7 @@ void Device::open(const DeviceOptions& options) {
     const std::vector<VkPhysicalDevice> physicals = enumeratePhysicalDevices(instance_);
     std::vector<DeviceInfo> infos;
     for (std::uint32_t i = 0; i < physicals.size(); ++i) infos.push_back(describeDevice(physicals[i], i));
-    info_ = chooseDevice(infos, options.select.empty() ? environment("CUTIS_DEVICE") : options.select);
+    info_ = chooseDevice(infos, options.select);
     physical_ = physicals[info_.index];
     queueFamily_ = static_cast<std::uint32_t>(findQueueFamily(physical_));
 

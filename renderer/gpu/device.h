@@ -31,6 +31,9 @@ struct DeviceInfo {
 // All Vulkan devices of this machine, suitable or not. Throws Error when there is no Vulkan at all.
 std::vector<DeviceInfo> listDevices();
 
+// The device that `select` of DeviceOptions names. Throws Error as Device does.
+DeviceInfo chosenDevice(const std::string& select);
+
 struct DeviceOptions {
     // "cpu", an index, or part of a name in any case. Empty: $CUTIS_DEVICE, else the first discrete GPU, else
     // integrated, else virtual, else cpu.

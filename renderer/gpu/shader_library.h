@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace cutis::gpu {
 
@@ -12,10 +15,18 @@ struct EmbeddedShader {
     std::span<const std::uint32_t> words;
 };
 
-// The module of that name, or an empty span.
+// The module of that name, or an empty span. It stays until the program ends.
 std::span<const std::uint32_t> findShader(std::string_view name);
 
 // Makes further modules known, for example a test's own. The span must outlive all devices.
 void addShaders(std::span<const EmbeddedShader> shaders);
+
+// Names of all modules that are embedded.
+std::vector<std::string> embeddedShaderNames();
+
+// While shaders are being written: findShader gives these in place of the embedded ones, to devices opened from
+// now on. An empty map brings those back. From any thread.
+using ShaderModules = std::map<std::string, std::vector<std::uint32_t>, std::less<>>;
+void replaceShaders(ShaderModules modules);
 
 }  // namespace cutis::gpu

@@ -9,8 +9,9 @@
 
 namespace cutis {
 
-inline constexpr int kAovCount = 9;  // in the order of kAovNames and of AOV_ in shade.comp
-inline constexpr int kAovDiffuse = 0, kAovSpecular = 1;
+// In the order of kAovNames and of AOV_ in shade.comp. The last has no name: where in the atlas a pixel's skin is.
+inline constexpr int kAovCount = 10;
+inline constexpr int kAovDiffuse = 0, kAovSpecular = 1, kAovAtlas = 9;
 
 struct PictureTarget {
     gpu::Image picture;  // RGBA32F

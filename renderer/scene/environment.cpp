@@ -44,7 +44,7 @@ Findings examine(const std::vector<glm::vec3>& radiance) {
 
 }  // namespace
 
-void sanitizeEnvironment(Environment& environment) {
+void sanitizeEnvironment(Environment& environment, bool warns) {
     const Findings found = examine(environment.radiance);
     if (found.nan + found.negative + found.infinite == 0) return;
     for (glm::vec3& texel : environment.radiance) {
@@ -62,7 +62,7 @@ void sanitizeEnvironment(Environment& environment) {
     add(found.nan, "NaN", "0");
     if (found.missing > kNegligible * found.light) add(found.negative, "negative", "0");
     add(found.infinite, "infinite", "the largest that is finite");
-    if (!mended.empty()) warn("environment " + environment.name + ": " + mended);
+    if (warns && !mended.empty()) warn("environment " + environment.name + ": " + mended);
 }
 
 namespace {
@@ -87,7 +87,7 @@ void splitLargeTexels(Environment& environment) {
 
 }  // namespace
 
-Environment loadEnvironment(const std::filesystem::path& path) {
+Environment loadEnvironment(const std::filesystem::path& path, bool warns) {
     bool integers = false;
     const Picture picture = readPixels(path, kMaxEnvironmentWidth, kMaxEnvironmentHeight, &integers);
     Environment environment;
@@ -104,7 +104,7 @@ Environment loadEnvironment(const std::filesystem::path& path) {
             environment.radiance[i] = texel;
         }
     });
-    sanitizeEnvironment(environment);
+    sanitizeEnvironment(environment, warns);
     splitLargeTexels(environment);
     return environment;
 }

@@ -178,16 +178,19 @@ std::pair<std::size_t, double> locate(std::span<const double> weights, double ta
 
 // The Fibonacci lattice of visibilityDirections(n), its square warped so that equal areas hold equal sums of
 // `grid`.
-std::vector<glm::dvec3> warpedLattice(const EnvironmentCells& grid, int n) {
+std::vector<glm::dvec3> warpedLattice(const EnvironmentCells& grid, int n, std::uint32_t seed) {
+    // The R2 sequence (Roberts 2018) shifts the lattice as on a torus; not at all for seed 0.
+    const double down0 = 0.7548776662466927 * seed, turn0 = 0.5698402909980532 * seed;
+    const double shift = down0 + 0.5 - std::floor(down0 + 0.5);
     std::vector<double> rows(grid.height, 0), columns(grid.width);
     double total = 0;
     for (std::size_t i = 0; i < grid.cells.size(); ++i) rows[i / grid.width] += grid.cells[i].weight();
     for (double row : rows) total += row;
     std::vector<glm::dvec3> directions;
     for (int i = 0; i < n; ++i) {
-        const auto [row, down] = locate(rows, (i + 0.5) / n * total);
+        const auto [row, down] = locate(rows, (i + shift) / n * total);
         for (int x = 0; x < grid.width; ++x) columns[x] = grid.cells[row * grid.width + x].weight();
-        const double turn = i * (2 - std::numbers::phi) + 0.75;  // from +X, as there
+        const double turn = i * (2 - std::numbers::phi) + 0.75 + turn0;  // from +X, as there
         const auto [column, across] = locate(columns, (turn - std::floor(turn)) * rows[row]);
         // Within a cell by solid angle, which is even in the cosine.
         const double top = std::cos(kPi * double(row) / grid.height),
@@ -200,7 +203,7 @@ std::vector<glm::dvec3> warpedLattice(const EnvironmentCells& grid, int n) {
 
 }  // namespace
 
-std::vector<VisibilityDirection> visibilityDirections(const Environment& environment, int n) {
+std::vector<VisibilityDirection> visibilityDirections(const Environment& environment, int n, std::uint32_t seed) {
     constexpr double kEvenShare = 1.0 / 3;
     const auto luminance = [&](std::size_t texel) {
         const glm::vec3& radiance = environment.radiance[texel];
@@ -214,7 +217,7 @@ std::vector<VisibilityDirection> visibilityDirections(const Environment& environ
         return glm::dvec3(mean > 0 ? (1 - kEvenShare) * luminance(texel) / mean + kEvenShare : 1);
     });
     std::vector<VisibilityDirection> directions;
-    for (const glm::dvec3& direction : warpedLattice(mixed, n)) directions.push_back({direction, 0});
+    for (const glm::dvec3& direction : warpedLattice(mixed, n, seed)) directions.push_back({direction, 0});
     const std::vector<glm::dvec3> sphere = visibilityDirections(128 * n);
     for (const glm::dvec3& point : sphere) {
         std::max_element(directions.begin(), directions.end(), [&](const auto& a, const auto& b) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
@@ -52,8 +53,9 @@ struct VisibilityDirection {
 // n directions, dense where the light of the environment is and never sparse: the lattice of
 // visibilityDirections(n), warped by what each part of the sphere sends, a third of it spread evenly. The
 // shadow of a small bright source is thus an average over many directions. Each stands for the part of the
-// sphere that is nearest to it.
-std::vector<VisibilityDirection> visibilityDirections(const Environment& environment, int n);
+// sphere that is nearest to it. A seed other than 0 gives others, as good as these.
+std::vector<VisibilityDirection> visibilityDirections(const Environment& environment, int n,
+                                                      std::uint32_t seed = 0);
 
 // The part of an environment nearest to one visibility direction.
 struct DirectionalFlux {

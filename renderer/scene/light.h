@@ -43,6 +43,7 @@ struct EnvironmentSettings {
     double intensity = 1;
     double rotation = 0;     // degrees about +Y, counter-clockwise seen from above
     int shadowSamples = 0;  // directions drawn from it that become light samples with shadows
+    bool sunRemoved = false;  // it shines without its sun (environment_sun.h)
     bool operator==(const EnvironmentSettings&) const = default;
 };
 

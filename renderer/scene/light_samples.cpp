@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -127,7 +128,32 @@ LightSample wholeLight(const Light& light, int index) {
     return sample;
 }
 
-void appendArea(const Light& light, const LightSample& whole, std::vector<LightSample>& samples) {
+// The R2 sequence (Roberts 2018), 0 for seed 0.
+glm::dvec2 shiftOf(std::uint32_t seed) {
+    return {fraction(seed * std::sqrt(kPlastic)), fraction(seed * kPlastic)};
+}
+
+// Shifted as on a torus (Cranley & Patterson 1976); within [-1/2, 1/2]².
+std::vector<glm::dvec2> shiftedSquarePoints(int n, double aspect, std::uint32_t seed) {
+    std::vector<glm::dvec2> points = squarePoints(n, aspect);
+    if (seed == 0) return points;
+    const glm::dvec2 shift = shiftOf(seed) + 0.5;
+    for (glm::dvec2& p : points) p = {fraction(p.x + shift.x) - 0.5, fraction(p.y + shift.y) - 0.5};
+    return points;
+}
+
+// Turned to a direction of its own for each seed.
+std::vector<glm::dvec3> turnedBallPoints(int n, std::uint32_t seed) {
+    std::vector<glm::dvec3> points = ballPoints(n);
+    if (seed == 0) return points;
+    const glm::dvec2 shift = shiftOf(seed);
+    const glm::dquat turn = glm::angleAxis(2 * kPi * shift.x, glm::dvec3(0, 0, 1)) *
+                            glm::angleAxis(std::acos(1 - 2 * shift.y), glm::dvec3(1, 0, 0));
+    for (glm::dvec3& p : points) p = turn * p;
+    return points;
+}
+
+void appendArea(const Light& light, const LightSample& whole, std::uint32_t seed, std::vector<LightSample>& samples) {
     const int n = sampleCount(light);
     const RectAxes axes = rectAxes(light.direction);
     const auto append = [&](const glm::dvec3& offset, double area) {
@@ -139,19 +165,19 @@ void appendArea(const Light& light, const LightSample& whole, std::vector<LightS
     };
     if (light.type == LightType::rect) {
         const double area = light.size.x * light.size.y;
-        for (const glm::dvec2& p : squarePoints(n, light.size.x / light.size.y))
+        for (const glm::dvec2& p : shiftedSquarePoints(n, light.size.x / light.size.y, seed))
             append(axes.x * (p.x * light.size.x) + axes.y * (p.y * light.size.y), area);
         return;
     }
     const double area = kPi * light.radius * light.radius;
     if (light.type == LightType::spot) {
-        for (const glm::dvec2& p : squarePoints(n, 1)) {
+        for (const glm::dvec2& p : shiftedSquarePoints(n, 1, seed)) {
             const glm::dvec2 q = light.radius * discFromSquare(p);
             append(axes.x * q.x + axes.y * q.y, area);
         }
         return;
     }
-    for (const glm::dvec3& p : ballPoints(n)) append(light.radius * p, area);
+    for (const glm::dvec3& p : turnedBallPoints(n, seed)) append(light.radius * p, area);
 }
 
 bool hasArea(const Light& light) {
@@ -197,7 +223,7 @@ std::vector<LightSample> sampleLights(const Rig& rig, const SamplingOptions& opt
             whole.cosineEmission = true;
         }
         if (hasArea(light)) {
-            appendArea(light, whole, samples);
+            appendArea(light, whole, options.seed, samples);
         } else {
             samples.push_back(whole);
         }

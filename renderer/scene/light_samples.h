@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -11,6 +12,8 @@ namespace cutis {
 
 struct SamplingOptions {
     std::size_t limit = 65536;  // more samples than this over all lights are an Error
+    // Other samples of lights with an area, as good as these: means over several seeds converge to the light.
+    std::uint32_t seed = 0;
 };
 
 // The samples of every enabled light, in the rig's order; their sum is the light. Placements must be
@@ -26,7 +29,7 @@ struct SamplingOptions {
 //  - rect: cell centres of a grid, or a point-symmetric lattice where no grid has nearly square cells. A
 //  sample of a
 //    light of radiance L, area A and n samples has L·A/n candela along its normal.
-// Deterministic. Throws Error when there are more than options.limit.
+// A seed other than 0 shifts grids and lattices as on a torus, and turns balls. Deterministic. Throws Error when there are more than options.limit.
 std::vector<LightSample> sampleLights(const Rig& rig, const SamplingOptions& options = {});
 
 // How many samples sampleLights makes of a light: `samples` for one with an area, where 0 stands for 6

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 #include <vector>
 
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
 #include "renderer/core/suggest.h"
+#include "renderer/scene/fields.h"
 #include "renderer/scene/light_samples.h"
 #include "renderer/scene/rig.h"
 
@@ -23,63 +23,52 @@ constexpr int kVersion = 1;
 constexpr int kMaxDepth = 8;  // the format nests four deep
 constexpr std::array<const char*, 4> kTypeNames = {"directional", "point", "spot", "rect"};
 
-// What a value may be. Upper bounds keep single precision, in which lights are summed, far from overflow.
-struct Range {
-    double min, max;
-    bool openMin = false;  // min itself is not allowed
-};
-constexpr Range kExposure{-64, 64};
-constexpr Range kIntensity{0, 1e12}, kColor{0, 1e6}, kTemperature{kMinTemperature, kMaxTemperature};
-constexpr Range kCone{0, std::numbers::pi / 2};
-constexpr Range kCoordinate{-1e6, 1e6}, kLength{0, 1e6}, kDistance{0, 1e6, true};
-constexpr Range kTurn{-36000, 36000}, kElevation{-90, 90};
-constexpr Range kSamples{0, kMaxLightSamples};
-
-// The keys of each object. `fields` is a Reader or a Writer.
-template <class Fields>
-void describePlacement(Fields& fields) {
-    fields.text("subject", &Placement::subject);
-    fields.number("azimuth", &Placement::azimuth, kTurn);
-    fields.number("elevation", &Placement::elevation, kElevation);
-    fields.number("distance", &Placement::distance, kDistance);
+// The keys of each object. `object` is a Reader, a Writer or a Lister.
+template <class Object>
+void describePlacement(Object& object) {
+    object.text(fields::kSubject, &Placement::subject);
+    object.number(fields::kAzimuth, &Placement::azimuth);
+    object.number(fields::kElevation, &Placement::elevation);
+    object.number(fields::kDistance, &Placement::distance);
 }
 
-template <class Fields>
-void describeLight(Fields& fields) {
-    fields.text("name", &Light::name);
-    fields.type("type", &Light::type);
-    fields.flag("enabled", &Light::enabled);
-    fields.vector("color", &Light::color, kColor);
-    fields.number("temperature", &Light::temperature, kTemperature);
-    fields.number("intensity", &Light::intensity, kIntensity);
-    fields.number("inner_cone_angle", &Light::innerConeAngle, kCone);
-    fields.number("outer_cone_angle", &Light::outerConeAngle, kCone);
-    fields.number("radius", &Light::radius, kLength);
-    fields.vector("size", &Light::size, kLength);
-    fields.integer("samples", &Light::samples, kSamples);
-    fields.number("range", &Light::range, kLength);
-    fields.flag("shadow", &Light::shadow);
-    fields.placement("place", &Light::place);
-    fields.where("position", &Light::position);
-    fields.where("direction", &Light::direction);
+template <class Object>
+void describeLight(Object& object) {
+    object.text(fields::kLightName, &Light::name);
+    object.type(fields::kType, &Light::type);
+    object.flag(fields::kEnabled, &Light::enabled);
+    object.vector(fields::kColor, &Light::color);
+    object.number(fields::kTemperature, &Light::temperature);
+    object.number(fields::kIntensity, &Light::intensity);
+    object.number(fields::kInnerCone, &Light::innerConeAngle);
+    object.number(fields::kOuterCone, &Light::outerConeAngle);
+    object.number(fields::kRadius, &Light::radius);
+    object.vector(fields::kSize, &Light::size);
+    object.integer(fields::kSamples, &Light::samples);
+    object.number(fields::kRange, &Light::range);
+    object.flag(fields::kShadow, &Light::shadow);
+    object.placement(fields::kPlace, &Light::place);
+    object.where(fields::kPosition, &Light::position);
+    object.where(fields::kDirection, &Light::direction);
 }
 
-template <class Fields>
-void describeEnvironment(Fields& fields) {
-    fields.text("file", &EnvironmentSettings::file);
-    fields.flag("enabled", &EnvironmentSettings::enabled);
-    fields.number("intensity", &EnvironmentSettings::intensity, kIntensity);
-    fields.number("rotation", &EnvironmentSettings::rotation, kTurn);
-    fields.integer("shadow_samples", &EnvironmentSettings::shadowSamples, kSamples);
+template <class Object>
+void describeEnvironment(Object& object) {
+    object.text(fields::kFile, &EnvironmentSettings::file);
+    object.flag(fields::kEnvironmentEnabled, &EnvironmentSettings::enabled);
+    object.number(fields::kEnvironmentIntensity, &EnvironmentSettings::intensity);
+    object.number(fields::kRotation, &EnvironmentSettings::rotation);
+    object.integer(fields::kShadowSamples, &EnvironmentSettings::shadowSamples);
+    object.flag(fields::kSunRemoved, &EnvironmentSettings::sunRemoved);
 }
 
-template <class Fields>
-void describeRig(Fields& fields) {
-    fields.version("cutis_rig");
-    fields.text("name", &Rig::name);
-    fields.number("exposure", &Rig::exposure, kExposure);
-    fields.lights("lights", &Rig::lights);
-    fields.environment("environment", &Rig::environment);
+template <class Object>
+void describeRig(Object& object) {
+    object.version(fields::kVersion);
+    object.text(fields::kRigName, &Rig::name);
+    object.number(fields::kExposure, &Rig::exposure);
+    object.lights(fields::kLights, &Rig::lights);
+    object.environment(fields::kEnvironment, &Rig::environment);
 }
 
 // A value as a message shows it.
@@ -100,7 +89,7 @@ struct Source {
     throw Error("cannot use rig", path.empty() ? why : path + ' ' + why, source.name);
 }
 
-double readNumber(const Json& value, const Range& range, const Source& source, const std::string& path) {
+double readNumber(const Json& value, const Field& range, const Source& source, const std::string& path) {
     if (!value.is_number()) refuse(source, path, "is " + shown(value) + ", it must be a number");
     const double number = value.get<double>();
     if (!(number >= range.min && number <= range.max) || (range.openMin && number == range.min)) {
@@ -124,77 +113,77 @@ class Reader {
     bool has(const char* key) const { return json_.contains(key); }
     std::string at(const char* key) const { return path_.empty() ? key : path_ + '.' + key; }
 
-    void text(const char* key, std::string Object::*member) {
-        const Json* json = find(key);
+    void text(const Field& field, std::string Object::*member) {
+        const Json* json = find(field.key);
         if (!json) return;
-        if (!json->is_string()) refuse(source_, at(key), "is " + shown(*json) + ", it must be a text");
+        if (!json->is_string()) refuse(source_, at(field.key), "is " + shown(*json) + ", it must be a text");
         value_.*member = json->template get<std::string>();
     }
-    void flag(const char* key, bool Object::*member) {
-        const Json* json = find(key);
+    void flag(const Field& field, bool Object::*member) {
+        const Json* json = find(field.key);
         if (!json) return;
         if (!json->is_boolean())
-            refuse(source_, at(key), "is " + shown(*json) + ", it must be true or false");
+            refuse(source_, at(field.key), "is " + shown(*json) + ", it must be true or false");
         value_.*member = json->template get<bool>();
     }
     template <class Number>  // double or std::optional<double>
-    void number(const char* key, Number Object::*member, const Range& range) {
-        if (const Json* json = find(key)) value_.*member = readNumber(*json, range, source_, at(key));
+    void number(const Field& field, Number Object::*member) {
+        if (const Json* json = find(field.key)) value_.*member = readNumber(*json, field, source_, at(field.key));
     }
-    void integer(const char* key, int Object::*member, const Range& range) {
-        const Json* json = find(key);
+    void integer(const Field& field, int Object::*member) {
+        const Json* json = find(field.key);
         if (!json) return;
         if (!json->is_number_integer())
-            refuse(source_, at(key), "is " + shown(*json) + ", it must be a whole number");
-        value_.*member = static_cast<int>(readNumber(*json, range, source_, at(key)));
+            refuse(source_, at(field.key), "is " + shown(*json) + ", it must be a whole number");
+        value_.*member = static_cast<int>(readNumber(*json, field, source_, at(field.key)));
     }
     template <class Vector>
-    void vector(const char* key, Vector Object::*member, const Range& range) {
-        const Json* json = find(key);
+    void vector(const Field& field, Vector Object::*member) {
+        const Json* json = find(field.key);
         if (!json) return;
         constexpr auto kLengthOf = static_cast<std::size_t>(Vector::length());
         if (!json->is_array() || json->size() != kLengthOf) {
-            refuse(source_, at(key),
+            refuse(source_, at(field.key),
                    "is " + shown(*json) + ", it must be a list of " + std::to_string(kLengthOf) + " numbers");
         }
         for (std::size_t i = 0; i < kLengthOf; ++i) {
-            const std::string element = at(key) + '[' + std::to_string(i) + ']';
-            (value_.*member)[static_cast<int>(i)] = readNumber((*json)[i], range, source_, element);
+            const std::string element = at(field.key) + '[' + std::to_string(i) + ']';
+            (value_.*member)[static_cast<int>(i)] = readNumber((*json)[i], field, source_, element);
         }
     }
-    void where(const char* key, glm::dvec3 Object::*member) { vector(key, member, kCoordinate); }
-    void type(const char* key, LightType Object::*member) {
-        const Json* json = find(key);
-        if (!json) refuse(source_, at(key), "is missing: directional, point, spot or rect");
+    void where(const Field& field, glm::dvec3 Object::*member) { vector(field, member); }
+    void type(const Field& field, LightType Object::*member) {
+        const Json* json = find(field.key);
+        if (!json) refuse(source_, at(field.key), "is missing: directional, point, spot or rect");
         for (std::size_t i = 0; json->is_string() && i < kTypeNames.size(); ++i) {
             if (json->template get<std::string>() != kTypeNames[i]) continue;
             value_.*member = static_cast<LightType>(i);
             return;
         }
-        refuse(source_, at(key), "is " + shown(*json) + ", it must be directional, point, spot or rect");
+        refuse(source_, at(field.key), "is " + shown(*json) + ", it must be directional, point, spot or rect");
     }
-    void version(const char* key) {
-        const Json* json = find(key);
-        if (!json) refuse(source_, at(key), "is missing: this is not a rig file");
+    void version(const Field& field) {
+        const Json* json = find(field.key);
+        if (!json) refuse(source_, at(field.key), "is missing: this is not a rig file");
         if (*json != kVersion)
-            refuse(source_, at(key),
+            refuse(source_, at(field.key),
                    "is " + shown(*json) + ", this program reads " + std::to_string(kVersion));
     }
-    void placement(const char* key, std::optional<Placement> Object::*member) {
-        if (const Json* json = find(key)) {
-            Reader<Placement> fields(*json, (value_.*member).emplace(), source_, at(key));
+    void placement(const Field& field, std::optional<Placement> Object::*member) {
+        if (const Json* json = find(field.key)) {
+            Reader<Placement> fields(*json, (value_.*member).emplace(), source_, at(field.key));
             describePlacement(fields);
             fields.finish();
         }
     }
-    void environment(const char* key, EnvironmentSettings Object::*member) {
-        if (const Json* json = find(key)) {
-            Reader<EnvironmentSettings> fields(*json, value_.*member, source_, at(key));
+    void environment(const Field& field, EnvironmentSettings Object::*member) {
+        if (const Json* json = find(field.key)) {
+            Reader<EnvironmentSettings> fields(*json, value_.*member, source_, at(field.key));
             describeEnvironment(fields);
             fields.finish();
         }
     }
-    void lights(const char* key, std::vector<Light> Object::*member);
+    void lights(const Field& field, std::vector<Light> Object::*member);
 
     // Every key that no field asked for is an error.
     void finish() const {
@@ -258,16 +247,16 @@ void checkLight(const Reader<Light>& fields, Light& light, Source& source, const
 }
 
 template <class Object>
-void Reader<Object>::lights(const char* key, std::vector<Light> Object::*member) {
-    const Json* json = find(key);
+void Reader<Object>::lights(const Field& field, std::vector<Light> Object::*member) {
+    const Json* json = find(field.key);
     if (!json) return;
-    if (!json->is_array()) refuse(source_, at(key), "is " + shown(*json) + ", it must be a list");
+    if (!json->is_array()) refuse(source_, at(field.key), "is " + shown(*json) + ", it must be a list");
     if (json->size() > kMaxLights) {
-        refuse(source_, at(key),
+        refuse(source_, at(field.key),
                "has " + std::to_string(json->size()) + " lights, the limit is " + std::to_string(kMaxLights));
     }
     for (std::size_t i = 0; i < json->size(); ++i) {
-        const std::string path = at(key) + '[' + std::to_string(i) + ']';
+        const std::string path = at(field.key) + '[' + std::to_string(i) + ']';
         Light& light = (value_.*member).emplace_back();
         Reader<Light> fields((*json)[i], light, source_, path);
         describeLight(fields);
@@ -283,36 +272,36 @@ class Writer {
   public:
     explicit Writer(const Object& value) : value_(value) {}
 
-    void text(const char* key, std::string Object::*member) { plain(key, member); }
-    void flag(const char* key, bool Object::*member) { plain(key, member); }
-    void integer(const char* key, int Object::*member, const Range&) { plain(key, member); }
-    void number(const char* key, double Object::*member, const Range&) { plain(key, member); }
-    void number(const char* key, std::optional<double> Object::*member, const Range&) {
-        if (value_.*member) json[key] = *(value_.*member);
+    void text(const Field& field, std::string Object::*member) { plain(field.key, member); }
+    void flag(const Field& field, bool Object::*member) { plain(field.key, member); }
+    void integer(const Field& field, int Object::*member) { plain(field.key, member); }
+    void number(const Field& field, double Object::*member) { plain(field.key, member); }
+    void number(const Field& field, std::optional<double> Object::*member) {
+        if (value_.*member) json[field.key] = *(value_.*member);
     }
     template <class Vector>
-    void vector(const char* key, Vector Object::*member, const Range&) {
-        if (!same(value_.*member, defaults_.*member)) write(key, value_.*member);
+    void vector(const Field& field, Vector Object::*member) {
+        if (!same(value_.*member, defaults_.*member)) write(field.key, value_.*member);
     }
-    void where(const char* key, glm::dvec3 Object::*member) {
-        if (!value_.place) write(key, value_.*member);
+    void where(const Field& field, glm::dvec3 Object::*member) {
+        if (!value_.place) write(field.key, value_.*member);
     }
-    void type(const char* key, LightType Object::*member) { json[key] = lightTypeName(value_.*member); }
-    void version(const char* key) { json[key] = kVersion; }
-    void placement(const char* key, std::optional<Placement> Object::*member) {
+    void type(const Field& field, LightType Object::*member) { json[field.key] = lightTypeName(value_.*member); }
+    void version(const Field& field) { json[field.key] = kVersion; }
+    void placement(const Field& field, std::optional<Placement> Object::*member) {
         if (!(value_.*member)) return;
         Writer<Placement> fields(*(value_.*member));
         describePlacement(fields);
-        json[key] = fields.json;
+        json[field.key] = fields.json;
     }
-    void environment(const char* key, EnvironmentSettings Object::*member) {
+    void environment(const Field& field, EnvironmentSettings Object::*member) {
         if (value_.*member == defaults_.*member) return;
         Writer<EnvironmentSettings> fields(value_.*member);
         describeEnvironment(fields);
-        json[key] = fields.json;
+        json[field.key] = fields.json;
     }
-    void lights(const char* key, std::vector<Light> Object::*member) {
-        Json& list = json[key] = Json::array();
+    void lights(const Field& field, std::vector<Light> Object::*member) {
+        Json& list = json[field.key] = Json::array();
         for (const Light& light : value_.*member) {
             Writer<Light> fields(light);
             describeLight(fields);
@@ -343,6 +332,33 @@ class Writer {
 
     const Object& value_;
     const Object defaults_{};
+};
+
+// Notes the fields of an object.
+struct Lister {
+    std::vector<Field> list;
+
+    template <class Member>
+    void text(const Field& field, Member) { list.push_back(field); }
+    template <class Member>
+    void flag(const Field& field, Member) { list.push_back(field); }
+    template <class Member>
+    void number(const Field& field, Member) { list.push_back(field); }
+    template <class Member>
+    void integer(const Field& field, Member) { list.push_back(field); }
+    template <class Member>
+    void vector(const Field& field, Member) { list.push_back(field); }
+    template <class Member>
+    void where(const Field& field, Member) { list.push_back(field); }
+    template <class Member>
+    void type(const Field& field, Member) { list.push_back(field); }
+    template <class Member>
+    void placement(const Field& field, Member) { list.push_back(field); }
+    template <class Member>
+    void environment(const Field& field, Member) { list.push_back(field); }
+    template <class Member>
+    void lights(const Field& field, Member) { list.push_back(field); }
+    void version(const Field& field) { list.push_back(field); }
 };
 
 // nlohmann keeps the last of repeated keys without a word, so they are caught while parsing.
@@ -378,6 +394,15 @@ Rig parse(const std::string& text, Source& source) {
 }
 
 }  // namespace
+
+std::vector<FieldGroup> rigFields() {
+    Lister rig, light, place, environment;
+    describeRig(rig);
+    describeLight(light);
+    describePlacement(place);
+    describeEnvironment(environment);
+    return {{"A rig", rig.list}, {"A light", light.list}, {"A place", place.list}, {"The environment", environment.list}};
+}
 
 const char* lightTypeName(LightType type) {
     return kTypeNames[static_cast<std::size_t>(type)];

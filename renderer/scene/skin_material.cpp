@@ -1,22 +1,31 @@
 #include "renderer/scene/skin_material.h"
 
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "renderer/core/error.h"
+#include "renderer/scene/fields.h"
 
 namespace cutis {
 namespace {
 
 constexpr const char* kThreeLayer = "three-layer";
 
-double numberIn(const JsonView& object, const char* key, double fallback, double low, double high,
-                bool lowIncluded, const char* range) {
-    const auto found = object.find(key);
-    if (!found) return fallback;
-    const double value = found->number();
-    if (value < low || value > high || (!lowIncluded && value == low))
-        found->fail(std::string("must be ") + range);
-    return value;
+std::string plain(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+double checked(const JsonView& value, const Field& field) {
+    const double number = value.number();
+    if (number >= field.min && number <= field.max && !(field.openMin && number == field.min)) return number;
+    value.fail("must be " + std::string(field.openMin ? "above " : "from ") + plain(field.min) +
+               (field.openMin ? " and at most " : " to ") + plain(field.max));
+}
+
+// Leaves `number` as it is where the object has no such field.
+void read(const JsonView& object, const Field& field, double& number) {
+    if (const auto found = object.find(field.key)) number = checked(*found, field);
 }
 
 skin::Profile parseProfile(const JsonView& value) {
@@ -26,13 +35,12 @@ skin::Profile parseProfile(const JsonView& value) {
     }
     skin::Profile profile;
     for (const JsonView& entry : value.elements()) {
-        entry.allowOnly({"variance_mm2", "weight"});
-        const JsonView variance = entry.member("variance_mm2");
-        if (variance.number() <= 0) variance.fail("must be above 0");
-        const JsonView weights = entry.member("weight");
+        entry.allowOnly({fields::kVariance.key, fields::kWeight.key});
+        const double variance = checked(entry.member(fields::kVariance.key), fields::kVariance);
+        const JsonView weights = entry.member(fields::kWeight.key);
         const std::vector<double> w = weights.numbers(3);
         if (w[0] < 0 || w[1] < 0 || w[2] < 0) weights.fail("must not be negative");
-        profile.gaussians.push_back({variance.number(), {w[0], w[1], w[2]}});
+        profile.gaussians.push_back({variance, {w[0], w[1], w[2]}});
     }
     skin::validate(profile, value.where());
     constexpr double kRounding = 1.01;  // published fits sum to 1.00x
@@ -48,16 +56,16 @@ skin::Profile parseProfile(const JsonView& value) {
 std::optional<SkinMaterial> parseSkinMaterial(const JsonView& value) {
     if (value.json().is_boolean()) return value.boolean() ? std::optional(SkinMaterial{}) : std::nullopt;
     if (!value.json().is_object()) value.fail("must be true, false or an object");
-    value.allowOnly({"profile", "scale", "mix", "roughness", "specular", "translucency", "mm_per_unit"});
-    constexpr double kLargest = 1e9;
+    value.allowOnly({fields::kProfile.key, fields::kScale.key, fields::kMix.key, fields::kRoughness.key,
+                     fields::kSpecular.key, fields::kTranslucency.key, fields::kMmPerUnit.key});
     SkinMaterial skin;
-    if (const auto profile = value.find("profile")) skin.profile = parseProfile(*profile);
-    skin.scale = numberIn(value, "scale", skin.scale, 0, kLargest, false, "above 0");
-    skin.mix = numberIn(value, "mix", skin.mix, 0, 1, true, "in [0, 1]");
-    skin.roughness = numberIn(value, "roughness", skin.roughness, 0, 1, false, "in (0, 1]");
-    skin.specular = numberIn(value, "specular", skin.specular, 0, kLargest, true, "0 or more");
-    skin.translucency = value.boolean("translucency", skin.translucency);
-    skin.mmPerUnit = numberIn(value, "mm_per_unit", skin.mmPerUnit, 0, kLargest, false, "above 0");
+    if (const auto profile = value.find(fields::kProfile.key)) skin.profile = parseProfile(*profile);
+    read(value, fields::kScale, skin.scale);
+    read(value, fields::kMix, skin.mix);
+    read(value, fields::kRoughness, skin.roughness);
+    read(value, fields::kSpecular, skin.specular);
+    skin.translucency = value.boolean(fields::kTranslucency.key, skin.translucency);
+    read(value, fields::kMmPerUnit, skin.mmPerUnit);
     return skin;
 }
 
@@ -65,19 +73,26 @@ nlohmann::json skinMaterialJson(const SkinMaterial& skin) {
     const SkinMaterial defaults;
     nlohmann::json json = nlohmann::json::object();
     if (!(skin.profile == defaults.profile)) {
-        json["profile"] = nlohmann::json::array();
+        json[fields::kProfile.key] = nlohmann::json::array();
         for (const skin::Gaussian& g : skin.profile.gaussians) {
-            json["profile"].push_back(
-                {{"variance_mm2", g.variance}, {"weight", {g.weight.r, g.weight.g, g.weight.b}}});
+            json[fields::kProfile.key].push_back(
+                {{fields::kVariance.key, g.variance}, {fields::kWeight.key, {g.weight.r, g.weight.g, g.weight.b}}});
         }
     }
-    if (skin.scale != defaults.scale) json["scale"] = skin.scale;
-    if (skin.mix != defaults.mix) json["mix"] = skin.mix;
-    if (skin.roughness != defaults.roughness) json["roughness"] = skin.roughness;
-    if (skin.specular != defaults.specular) json["specular"] = skin.specular;
-    if (skin.translucency != defaults.translucency) json["translucency"] = skin.translucency;
-    if (skin.mmPerUnit != defaults.mmPerUnit) json["mm_per_unit"] = skin.mmPerUnit;
+    if (skin.scale != defaults.scale) json[fields::kScale.key] = skin.scale;
+    if (skin.mix != defaults.mix) json[fields::kMix.key] = skin.mix;
+    if (skin.roughness != defaults.roughness) json[fields::kRoughness.key] = skin.roughness;
+    if (skin.specular != defaults.specular) json[fields::kSpecular.key] = skin.specular;
+    if (skin.translucency != defaults.translucency) json[fields::kTranslucency.key] = skin.translucency;
+    if (skin.mmPerUnit != defaults.mmPerUnit) json[fields::kMmPerUnit.key] = skin.mmPerUnit;
     return json.empty() ? nlohmann::json(true) : json;
+}
+
+std::vector<FieldGroup> skinFields() {
+    return {{"Skin",
+             {fields::kProfile, fields::kScale, fields::kMix, fields::kRoughness, fields::kSpecular,
+              fields::kTranslucency, fields::kMmPerUnit}},
+            {"A Gaussian of a profile", {fields::kVariance, fields::kWeight}}};
 }
 
 }  // namespace cutis

@@ -167,13 +167,17 @@ TEST(Mixer, ALightThatIsOffHasAPictureAllTheSame) {
 
 TEST(Overlay, ColoursMeanWhatTheyAreSaidToMean) {
     const Picture normal{2, 1, 3, {0, 0, 1, 0, 0, 0}};
-    const DisplayPicture shown = showAov("normal", normal, 0);
+    const DisplayPicture shown = showAov({"normal", {}}, normal, 0);
     EXPECT_EQ(std::vector<std::uint8_t>(shown.rgba.begin(), shown.rgba.begin() + 3),
               (std::vector<std::uint8_t>{128, 128, 255}));
     EXPECT_EQ(shown.rgba[6], 0) << "where nothing is";
     const Picture thickness{3, 1, 1, {0.001f, 60000, 0}};
-    EXPECT_EQ(showAov("thickness", thickness, 0).rgba[0], 255);
-    EXPECT_EQ(showAov("thickness", thickness, 0).rgba[4], 0);
+    EXPECT_EQ(showAov({"thickness", {}}, thickness, 0).rgba[0], 255);
+    EXPECT_EQ(showAov({"thickness", {}}, thickness, 0).rgba[4], 0);
+    const Picture stretch{3, 1, 3, {1, 1, 1, 9, 9, 9, 0, 0, 0}};
+    const Shown stretched{kInspectedName, {Inspect::What::stretch, 0}};
+    EXPECT_EQ(showAov(stretched, stretch, 0).rgba[0], 0);
+    EXPECT_EQ(showAov(stretched, stretch, 0).rgba[4], 255);
     const Picture map{3, 1, 1, {0, 0.5f, 9}};
     EXPECT_EQ(showMap(map, 1).rgba[0], 0);
     EXPECT_EQ(showMap(map, 1).rgba[8], 255);
@@ -181,7 +185,8 @@ TEST(Overlay, ColoursMeanWhatTheyAreSaidToMean) {
         if (*overlay.aov == 0) continue;
         const bool known = std::any_of(std::begin(kAovNames), std::end(kAovNames),
                                        [&](const char* name) { return std::string(name) == overlay.aov; });
-        EXPECT_TRUE(known) << overlay.aov;
+        EXPECT_NE(known, overlay.inspect != Inspect::What::none) << overlay.label;
+        EXPECT_EQ(known, std::string(overlay.aov) != kInspectedName) << overlay.label;
     }
 }
 

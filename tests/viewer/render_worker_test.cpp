@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <semaphore>
 
 #include "renderer/core/error.h"
@@ -95,21 +96,82 @@ TEST(RenderWorker, AStillViewIsTheMeanOfPicturesFromSlightlyTurnedCameras) {
         [] {});
     worker.show(1, stateOf(0));
     std::optional<WorkerResult> last;
-    for (int i = 0; i < 5000 && !(last && last->refined == RenderWorker::kRefinements); ++i) {
+    for (int i = 0; i < 5000 && !(last && last->refined == Refinement::kPixelPictures); ++i) {
         if (auto result = worker.takeResult()) last = std::move(result);
         std::this_thread::sleep_for(1ms);
     }
-    ASSERT_TRUE(last && last->refined == RenderWorker::kRefinements);
+    ASSERT_TRUE(last && last->refined == Refinement::kPixelPictures);
     EXPECT_EQ(last->linear->values[0], 0.1f);
     Picture mean = *last->linear;
     mean.values.assign(mean.values.size(), 0.2f);
     EXPECT_NEAR(last->display.rgba[0], toDisplay(mean, 0).rgba[0], 1);
-    ASSERT_EQ(cameras.size(), std::size_t(RenderWorker::kRefinements));
+    ASSERT_EQ(cameras.size(), std::size_t(Refinement::kPixelPictures));
     for (std::size_t i = 1; i < cameras.size(); ++i) {
         EXPECT_NE(cameras[i], cameras[0]);
         // A third of a pixel of 200 in a field of 0.6 rad is 1 mrad.
         EXPECT_LT(glm::length(glm::dvec3(cameras[i][2] - cameras[0][2])), 1e-3);
     }
+}
+
+// A soft light is averaged over other samples, on another renderer, until that changes nothing.
+TEST(RenderWorker, SoftShadowsAreRefinedBesideTheView) {
+    std::mutex mutex;
+    std::vector<std::uint32_t> viewSeeds, shadowSeeds;
+    const auto note = [&](std::vector<std::uint32_t>& seeds, float value) -> RenderFunction {
+        return [&, value](const RenderInput&, const RenderSettings& settings) {
+            const std::lock_guard lock(mutex);
+            seeds.push_back(settings.seed);
+            RenderResult result = greyPicture(settings);
+            result.picture.values.assign(result.picture.values.size(), value);
+            return result;
+        };
+    };
+    RenderWorker worker(
+        [&] {
+            Renderers renderers = both(note(viewSeeds, 0.2f));
+            renderers.openShadows = [&] { return note(shadowSeeds, 0.1f); };
+            return renderers;
+        },
+        [] {});
+    RenderState state = stateOf(0);
+    Light soft;
+    soft.type = LightType::rect;
+    soft.size = {1, 1};
+    state.rig.lights = {soft};
+    worker.show(1, state);
+    std::optional<WorkerResult> last;
+    for (int i = 0; i < 5000 && !(last && last->converged); ++i) {
+        if (auto result = worker.takeResult()) last = std::move(result);
+        std::this_thread::sleep_for(1ms);
+    }
+    ASSERT_TRUE(last && last->converged);
+    EXPECT_EQ(last->refined, Refinement::kPixelPictures);
+    EXPECT_GT(last->shadowSets, 2);
+    const std::lock_guard lock(mutex);
+    for (const std::uint32_t seed : viewSeeds) EXPECT_EQ(seed, 0u);
+    ASSERT_EQ(shadowSeeds.size(), std::size_t(last->shadowSets - 1));
+    for (std::size_t i = 0; i < shadowSeeds.size(); ++i) EXPECT_EQ(shadowSeeds[i], i + 1);
+    // One set of 0.2 among those of 0.1.
+    Picture mean = *last->linear;
+    mean.values.assign(mean.values.size(), 0.1f + 0.1f / static_cast<float>(last->shadowSets));
+    EXPECT_NEAR(last->display.rgba[0], toDisplay(mean, 0).rgba[0], 1);
+    EXPECT_EQ(last->linear->values[0], 0.2f) << "what is saved is the first";
+}
+
+TEST(RenderWorker, ARestartOpensEverythingAnew) {
+    int opened = 0;
+    RenderWorker worker(
+        [&] {
+            ++opened;
+            return both([](const RenderInput&, const RenderSettings& settings) { return greyPicture(settings); });
+        },
+        [] {});
+    worker.show(1, stateOf(0));
+    resultsUntil(worker, 1);
+    worker.restart();
+    worker.show(2, stateOf(0));
+    ASSERT_FALSE(resultsUntil(worker, 2).empty());
+    EXPECT_EQ(opened, 2);
 }
 
 TEST(RenderWorker, AnotherExposureIsNotRenderedAnew) {
@@ -123,11 +185,10 @@ TEST(RenderWorker, AnotherExposureIsNotRenderedAnew) {
         },
         [] {});
     RenderState state = stateOf(0);
-    state.overlay = "";
     worker.show(1, state);
     for (int i = 0; i < 5000; ++i) {
         const auto result = worker.takeResult();
-        if (result && result->refined == RenderWorker::kRefinements) break;
+        if (result && result->refined == Refinement::kPixelPictures) break;
         std::this_thread::sleep_for(1ms);
     }
     const int before = rendered;
@@ -137,7 +198,7 @@ TEST(RenderWorker, AnotherExposureIsNotRenderedAnew) {
     ASSERT_FALSE(results.empty());
     EXPECT_EQ(results.back().version, 2u);
     EXPECT_EQ(results.back().display.rgba[0], toDisplay(*results.back().linear, 1).rgba[0]);
-    EXPECT_LE(rendered - before, RenderWorker::kRefinements - 1);  // the refinement, but no first picture
+    EXPECT_LE(rendered - before, Refinement::kPixelPictures - 1);  // the refinement, but no first picture
 }
 
 TEST(RenderWorker, ALostDeviceIsOpenedAnew) {

@@ -57,17 +57,18 @@ TEST(Screen, ARigIsMadeComparedUndoneAndSaved) {
     saveRig(rig, rigFile);
 
     const ProcessResult run =
-        runProcess({"/bin/bash", CUTIS_DRIVE_SCRIPT, CUTIS_PROGRAM, scene, folder.path()},
+        runProcess({"/bin/bash", CUTIS_DRIVE_SCRIPT, CUTIS_PROGRAM, scene, folder.path(), CUTIS_DROP_FILE},
                    {{"CUTIS_CACHE_DIR", folder / "cache"},
                     {"CUTIS_DATA_DIR", folder / "data"},
                     {"CUTIS_VALIDATION", "1"}},
                    150);
     ASSERT_EQ(run.status, 0) << run.out << run.err;
     EXPECT_NE(run.out.find("title: cutis - heads.glb"), std::string::npos) << run.out;
-    // Validation messages and errors go there: the bad file is the only one.
+    // Validation messages and errors go there: the bad files are the only ones.
     EXPECT_EQ(run.err.rfind("cutis: ", 0), 0u) << run.err;
     EXPECT_NE(run.err.find("bad.glb"), std::string::npos) << run.err;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_NE(run.err.find("bad.rig.json"), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
 
     // Three times a third of a stop brighter, one of them undone; the second light muted.
     const Rig saved = loadRig(rigFile);
@@ -94,6 +95,44 @@ TEST(Screen, ARigIsMadeComparedUndoneAndSaved) {
     EXPECT_GT(contrast(screen, {left, 100, screen.width - left, 450}), 0.03)
         << "no picture between the panels";
     EXPECT_GT(contrast(screen, {5, 30, left - 5, 300}), 0.03) << "no rig panel";
+}
+
+// The same with three people, from the data that set-up fetched.
+TEST(Screen, TheDefaultSceneIsLitSavedAndReproduced) {
+    const TemporaryFolder folder;
+    const ProcessResult run =
+        runProcess({"/bin/bash", CUTIS_DRIVE_DEFAULT_SCRIPT, CUTIS_PROGRAM, folder.path()},
+                   {{"CUTIS_CACHE_DIR", folder / "cache"},
+                    {"CUTIS_DATA_DIR", CUTIS_DATA_DIR},
+                    {"CUTIS_VALIDATION", "1"}},
+                   300);
+    ASSERT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_NE(run.out.find("title: cutis - default"), std::string::npos) << run.out;
+    EXPECT_EQ(run.err, "") << "errors and validation messages go there";
+
+    // Two thirds of a stop brighter, solo and no longer solo, three edits undone: one of the two steps is left.
+    const Rig shipped = loadRig(std::filesystem::path(CUTIS_DATA_DIR) / "default" / "default.rig.json");
+    const Rig saved = loadRig(folder / "own.rig.json");
+    ASSERT_EQ(saved.lights.size(), shipped.lights.size());
+    for (std::size_t i = 0; i < saved.lights.size(); ++i) {
+        const double expected = shipped.lights[i].intensity * (i == 0 ? std::exp2(1 / 3.0) : 1);
+        EXPECT_NEAR(saved.lights[i].intensity, expected, 1e-9 * expected) << i;
+        EXPECT_EQ(saved.lights[i].enabled, shipped.lights[i].enabled) << i;
+    }
+
+    const Picture shown = readPicture(folder / "picture.exr");
+    const std::string size = std::to_string(shown.width) + 'x' + std::to_string(shown.height);
+    expectSuccess(runCutis({"render", "default", "--rig", folder / "own.rig.json", "--device", "cpu", "--size", size,
+                            "-o", folder / "command.exr"},
+                           {{"CUTIS_DATA_DIR", CUTIS_DATA_DIR}}));
+    const Picture expected = readPicture(folder / "command.exr");
+    ASSERT_EQ(shown.values.size(), expected.values.size());
+    // One renderer lights all skin, the other what is seen, in atlases that may differ in size.
+    EXPECT_LT(relativeL2(shown, expected), 0.03);
+    const Picture screen = readPicture(folder / "screen.png");
+    ASSERT_EQ(screen.width, 820);
+    const int left = (screen.width - shown.width) / 2;
+    EXPECT_GT(contrast(screen, {left, 150, screen.width - left, 300}), 0.03) << "no picture between the panels";
 }
 
 }  // namespace

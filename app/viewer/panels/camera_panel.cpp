@@ -77,9 +77,11 @@ void drawCameraPanel(Session& session) {
     drawFraming(session);
     drawLens(session);
     double exposure = session.document().rig.exposure;
-    if (dragRow("Exposure", exposure, 0.02f, -16, 16, "%+.2f EV"))
+    if (fieldRow(fields::kExposure, exposure))
         session.edits.apply("Exposure", [&](Document& document) { document.rig.exposure = exposure; });
-    hint("Of the rig: each step doubles what is shown");
+    Background background = session.document().background;
+    if (enumRow("Background", "--background", background, kBackgroundNames))
+        session.edits.apply("Background", [&](Document& document) { document.background = background; });
 }
 
 }  // namespace cutis::app

@@ -79,26 +79,30 @@ void drawEnvironmentPanel(Session& session) {
     } else {
         heading(fs::path(settings.file).stem().c_str());
         drawStrip(session, settings);
-        bool changed = checkRow("On", settings.enabled);
-        changed |= dragRow("Intensity", settings.intensity, 0.005f, 0, 1000, "%.3g", true);
-        optionHint("--env-intensity");
+        bool changed = fieldRow(fields::kEnvironmentEnabled, settings.enabled);
+        changed |= fieldRow(fields::kEnvironmentIntensity, settings.intensity);
         double turn = settings.rotation - 360 * std::floor((settings.rotation + 180) / 360);
-        if (sliderRow("Rotation", turn, -180, 180, "%.0f\xc2\xb0")) {
+        if (fieldRow(fields::kRotation, turn)) {
             settings.rotation = turn;
             changed = true;
         }
-        optionHint("--env-rotation");
-        changed |=
-            intRow("Suns", settings.shadowSamples, 0, 64, settings.shadowSamples ? "%d samples" : "none");
-        hint("Its brightest parts, taken out as so many light samples: they cast sharp shadows");
+        changed |= fieldRow(fields::kShadowSamples, settings.shadowSamples, "none");
+        if (settings.sunRemoved) changed |= fieldRow(fields::kSunRemoved, settings.sunRemoved);
         settings.rotation = changed ? settings.rotation : session.document().rig.environment.rotation;
         settings.file = session.document().rig.environment.file;
         if (changed)
             session.edits.apply("Environment",
                                 [&](Document& document) { document.rig.environment = settings; });
+        Background background = session.document().background;
+        if (enumRow("Background", "--background", background, kBackgroundNames))
+            session.edits.apply("Background", [&](Document& document) { document.background = background; });
+        if (!settings.sunRemoved) {
+            if (ImGui::Button("Take its sun out as a light", {-1, 0})) takeSun(session);
+            hint("Adds a directional light that gives what the sun gave; the environment shines without it");
+        }
         if (ImGui::Button("Remove", {-1, 0}))
             session.edits.apply("No environment",
-                                [](Document& document) { document.rig.environment.file.clear(); });
+                                [](Document& document) { document.rig.environment = {}; });
     }
     heading("Library");
     if (ImGui::Button("Another file ...", {-1, 0})) showDialog(session, Dialog::open);

@@ -15,28 +15,26 @@
 namespace cutis::app {
 namespace {
 
-constexpr double kMaxIntensity = 1e6;
-
-const char* intensityFormat(LightType type) {
+const char* intensityUnit(LightType type) {
     switch (type) {
         case LightType::directional:
-            return "%.3g lux";
+            return "lux";
         case LightType::rect:
-            return "%.3g W/(m\xc2\xb2 sr)";
+            return "W/(m\xc2\xb2 sr)";
         default:
-            return "%.3g cd";
+            return "cd";
     }
 }
 
 void drawName(Session& session) {
     std::string name = session.light().name;
-    if (textRow("Name", name)) {
+    if (fieldRow(fields::kLightName, name)) {
         const auto index = static_cast<std::size_t>(session.selectedLight);
         session.edits.apply("Rename light",
                             [&](Document& document) { document.rig.lights[index].name = name; });
     }
-    label("Type");
-    if (!ImGui::BeginCombo("##type", lightTypeName(session.light().type))) return;
+    label(fields::kType.label);
+    if (!ImGui::BeginCombo("##type", lightTypeName(session.light().type))) return hint(fields::kType.help);
     for (const LightType type :
          {LightType::rect, LightType::spot, LightType::point, LightType::directional}) {
         if (!ImGui::Selectable(lightTypeName(type), type == session.light().type)) continue;
@@ -63,12 +61,12 @@ void drawStops(Session& session) {
 
 void drawOutput(Session& session) {
     Light light = session.light();
-    if (dragRow("Intensity", light.intensity, 0.01f, 0, kMaxIntensity, intensityFormat(light.type), true))
+    if (fieldRow(fields::kIntensity, light.intensity, intensityUnit(light.type)))
         editLight(session, "Intensity", [&](Light& l) { l.intensity = light.intensity; });
     drawStops(session);
     float color[3];
     for (int c = 0; c < 3; ++c) color[c] = encodeSrgb(static_cast<float>(light.color[c]));
-    label("Colour");
+    label(fields::kColor.label);
     if (ImGui::ColorEdit3(
             "##color", color,
             ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_PickerHueWheel)) {
@@ -81,45 +79,44 @@ void drawOutput(Session& session) {
     if (ImGui::Checkbox("Kelvin", &kelvin))
         editLight(session, "Temperature",
                   [&](Light& l) { l.temperature = kelvin ? std::optional<double>(5600) : std::nullopt; });
-    if (light.temperature && sliderRow("Temperature", *light.temperature, 1500, 15000, "%.0f K", true))
+    if (light.temperature && fieldRow(fields::kTemperature, *light.temperature))
         editLight(session, "Temperature", [&](Light& l) { l.temperature = std::round(*light.temperature); });
 }
 
 void drawShape(Session& session) {
     Light light = session.light();
-    constexpr double kDegree = std::numbers::pi / 180;
     const LightType type = light.type;
     if (type == LightType::directional) return;
     heading("Shape and shadow");
     if (type == LightType::rect) {
-        bool changed = dragRow("Width", light.size.x, 0.005f, 0.01, 20, "%.2f m");
-        changed |= dragRow("Height", light.size.y, 0.005f, 0.01, 20, "%.2f m");
+        bool changed = fieldPartRow(fields::kSize, "Width", light.size.x);
+        changed |= fieldPartRow(fields::kSize, "Height", light.size.y);
         if (changed) editLight(session, "Size", [&](Light& l) { l.size = light.size; });
-    } else if (dragRow("Radius", light.radius, 0.002f, 0, 5, "%.3f m")) {
+    } else if (fieldRow(fields::kRadius, light.radius)) {
         editLight(session, "Radius", [&](Light& l) { l.radius = light.radius; });
     }
     if (type == LightType::spot) {
-        double inner = light.innerConeAngle / kDegree, outer = light.outerConeAngle / kDegree;
-        if (sliderRow("Cone", outer, 0.5, 90, "%.1f\xc2\xb0 to dark"))
+        if (fieldRow(fields::kOuterCone, light.outerConeAngle))
             editLight(session, "Cone", [&](Light& l) {
-                l.outerConeAngle = std::min(outer * kDegree, std::numbers::pi / 2);
+                l.outerConeAngle = std::min(light.outerConeAngle, std::numbers::pi / 2);
                 l.innerConeAngle = std::min(l.innerConeAngle, 0.98 * l.outerConeAngle);
             });
-        if (sliderRow("Hot spot", inner, 0, 89, "%.1f\xc2\xb0"))
+        if (fieldRow(fields::kInnerCone, light.innerConeAngle))
             editLight(session, "Cone", [&](Light& l) {
-                l.innerConeAngle = std::min(inner * kDegree, 0.98 * l.outerConeAngle);
+                l.innerConeAngle = std::min(light.innerConeAngle, 0.98 * l.outerConeAngle);
             });
     }
     if (sampleCount(light) > 1 || light.samples > 0)
-        if (intRow("Samples", light.samples, 0, 64, light.samples ? "%d" : "automatic"))
+        if (fieldRow(fields::kSamples, light.samples))
             editLight(session, "Samples", [&](Light& l) { l.samples = light.samples; });
-    if (checkRow("Shadow", light.shadow))
+    if (fieldRow(fields::kShadow, light.shadow))
         editLight(session, "Shadow", [&](Light& l) { l.shadow = light.shadow; });
 }
 
 void drawSubject(Session& session, const Placement& place) {
-    label("Subject");
-    if (!ImGui::BeginCombo("##subject", place.subject == "*" ? "everyone" : place.subject.c_str())) return;
+    label(fields::kSubject.label);
+    if (!ImGui::BeginCombo("##subject", place.subject == "*" ? "everyone" : place.subject.c_str()))
+        return hint(fields::kSubject.help);
     if (ImGui::Selectable("everyone", place.subject == "*"))
         editLight(session, "Subject", [](Light& l) { l.place->subject.assign(1, '*'); });
     for (const Character& character : session.geometry->characters)
@@ -131,10 +128,9 @@ void drawSubject(Session& session, const Placement& place) {
 void drawRoundSubject(Session& session) {
     Placement place = *session.light().place;
     drawSubject(session, place);
-    bool changed = sliderRow("Azimuth", place.azimuth, -180, 180, "%.1f\xc2\xb0");
-    hint("0 is in front, positive towards the subject's left");
-    changed |= sliderRow("Elevation", place.elevation, -90, 90, "%.1f\xc2\xb0");
-    changed |= dragRow("Distance", place.distance, 0.005f, 0.05, 100, "%.2f m", true);
+    bool changed = fieldRow(fields::kAzimuth, place.azimuth);
+    changed |= fieldRow(fields::kElevation, place.elevation);
+    changed |= fieldRow(fields::kDistance, place.distance);
     if (!changed) return;
     const std::string subject = session.light().place->subject;
     place.subject = subject;
@@ -145,14 +141,14 @@ void drawFree(Session& session) {
     Light light = session.light();
     for (const auto& [text, axis] : {std::pair("X", 0), std::pair("Y", 1), std::pair("Z", 2)}) {
         if (light.type == LightType::directional) break;
-        if (dragRow(text, light.position[axis], 0.005f, -1e4, 1e4, "%.3f m"))
+        if (fieldPartRow(fields::kPosition, text, light.position[axis]))
             editLight(session, "Position", [&](Light& l) { l.position = light.position; });
     }
     if (light.type == LightType::point) return;
     double azimuth = glm::degrees(std::atan2(light.direction.x, light.direction.z));
     double elevation = glm::degrees(std::asin(std::clamp(light.direction.y, -1.0, 1.0)));
-    bool changed = sliderRow("Aim around", azimuth, -180, 180, "%.1f\xc2\xb0");
-    changed |= sliderRow("Aim up", elevation, -90, 90, "%.1f\xc2\xb0");
+    bool changed = fieldPartRow(fields::kAzimuth, "Aim around", azimuth);
+    changed |= fieldPartRow(fields::kElevation, "Aim up", elevation);
     if (changed) {
         const double az = glm::radians(azimuth), el = glm::radians(elevation);
         editLight(session, "Aim", [&](Light& l) {
@@ -169,7 +165,7 @@ void drawFree(Session& session) {
 void drawPlacement(Session& session) {
     heading("Placement");
     const bool placed = session.light().place.has_value();
-    if (ImGui::RadioButton("Round the subject", placed) && !placed)
+    if (ImGui::RadioButton(fields::kPlace.label, placed) && !placed)
         editLight(session, "Placement", [&](Light& l) { placeLight(l, session.headCentre); });
     ImGui::SameLine();
     if (ImGui::RadioButton("Free", !placed) && placed) {

@@ -1,6 +1,7 @@
 // What ran for the picture, what did not and why; and how exactly the next one is computed.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -32,21 +33,67 @@ bool choiceRow(const char* text, const char* option, Value& value,
     return changed;
 }
 
+void editQuality(Session& session, const char* label, const Quality& quality) {
+    session.edits.apply(label, [&](Document& document) { document.quality = quality; });
+}
+
+std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
+    return text;
+}
+
+// What is known of the error of this quality, and a slider that chooses the quality by it.
+void drawError(Session& session) {
+    heading("Error of the skin's light");
+    const MeasuredFront& front = session.known.front;
+    Quality quality = session.document().quality;
+    const MeasuredSetting* measured = measuredOf(quality, front);
+    label("Estimate");
+    if (measured) {
+        ImGui::Text("%s", percent(measured->error).c_str());
+    } else {
+        ImGui::TextDisabled("not measured");
+    }
+    const std::string known = "As cutis measure found it, on " + session.known.where() +
+                              ": relative L2 of diffuse light. Measuring this scene makes it exact";
+    hint(known.c_str());
+    bool chosen = quality.tolerance > 0;
+    const double tightest = closest(front) ? closest(front)->error : 0.01;
+    if (checkRow("By tolerance", chosen)) {
+        quality.tolerance = chosen ? (measured ? measured->error : tightest) : 0;
+        editQuality(session, "Tolerance", quality);
+    }
+    optionHint("--tolerance");
+    if (!chosen) return;
+    double shown = 100 * quality.tolerance;
+    if (sliderRow("Tolerance", shown, 100 * tightest, 10, "%.1f %%", true)) {
+        // Not below the closest, for a rounding of the slider's.
+        quality.tolerance = std::max(shown / 100, tightest);
+        editQuality(session, "Tolerance", quality);
+    }
+    optionHint("--tolerance");
+    if (!measured) return;
+    label("Takes");
+    shortText(measured->setting.name + ", within " + percent(measured->error));
+}
+
 void drawQuality(Session& session) {
     constexpr std::pair<const char*, int> kSizes[] = {{"automatic", 0}, {"512", 512},   {"1024", 1024},
                                                       {"2048", 2048},   {"4096", 4096}, {"8192", 8192}};
     constexpr std::pair<const char*, int> kGaussians[] = {{"all", 0}, {"1", 1}, {"2", 2}, {"3", 3},
                                                           {"4", 4},   {"5", 5}, {"6", 6}};
-    constexpr std::pair<const char*, Merge> kMerges[] = {{"min", Merge::min}, {"opposite", Merge::opposite}};
-    constexpr std::pair<const char*, Chain> kChains[] = {{"exact", Chain::exact},
-                                                         {"published", Chain::published}};
+    constexpr std::pair<const char*, int> kTaps[] = {{"1", 1}, {"3", 3}, {"6", 6}, {"12", 12}, {"24", 24}};
+    drawError(session);
+    Quality quality = session.document().quality;
+    if (quality.tolerance > 0) return;
     heading("Quality");
-    RenderSettings& settings = session.request.settings;
-    bool changed = choiceRow("Atlas", "--irradiance-size", settings.irradianceSize, kSizes);
-    changed |= choiceRow("Gaussians", "--gaussians", settings.gaussians, kGaussians);
-    changed |= choiceRow("Merge", "--merge", settings.merge, kMerges);
-    changed |= choiceRow("Chain", "--chain", settings.chain, kChains);
-    if (changed) ++session.quality;
+    bool changed = choiceRow("Atlas", "--irradiance-size", quality.irradianceSize, kSizes);
+    changed |= choiceRow("Gaussians", "--gaussians", quality.gaussians, kGaussians);
+    changed |= enumRow("Merge", "--merge", quality.merge, kMergeNames);
+    changed |= enumRow("Chain", "--chain", quality.chain, kChainNames);
+    changed |= choiceRow("Taps", "--taps", quality.taps, kTaps);
+    if (changed) editQuality(session, "Quality", quality);
 }
 
 void drawFigures(const WorkerResult& picture) {

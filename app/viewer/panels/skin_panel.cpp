@@ -35,18 +35,84 @@ void drawMaterials(Session& session) {
     ImGui::EndChild();
 }
 
+// One Gaussian: its variance, and its weight of each channel.
+bool drawGaussian(skin::Profile& profile, std::size_t index, bool& removed) {
+    skin::Gaussian& gaussian = profile.gaussians[index];
+    ImGui::PushID(static_cast<int>(index));
+    ImGui::TableNextRow();
+    bool changed = false;
+    double* const values[] = {&gaussian.variance, &gaussian.weight.x, &gaussian.weight.y, &gaussian.weight.z};
+    for (int i = 0; i < 4; ++i) {
+        ImGui::TableNextColumn();
+        ImGui::SetNextItemWidth(-1);
+        ImGui::PushID(i);
+        changed |= fieldCell(i == 0 ? fields::kVariance : fields::kWeight, *values[i]);
+        ImGui::PopID();
+    }
+    ImGui::TableNextColumn();
+    ImGui::BeginDisabled(profile.gaussians.size() == 1);
+    removed = ImGui::SmallButton("x");
+    ImGui::EndDisabled();
+    hint("Removes this Gaussian");
+    ImGui::PopID();
+    return changed;
+}
+
+void drawTotals(const skin::Profile& profile) {
+    const glm::dvec3 total = skin::totalWeight(profile);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("sum");
+    for (int c = 0; c < 3; ++c) {
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("%.3f", total[c]);
+    }
+    hint("What skin gives back of the light that enters it: 1 is all");
+}
+
+void drawProfile(Session& session, std::size_t index, const std::string& name) {
+    const skin::Profile before = session.document().skin[index]->profile;
+    skin::Profile profile = before;
+    std::string edit = "Profile of " + name;
+    heading(fields::kProfile.label);
+    hint(fields::kProfile.help);
+    if (ImGui::BeginTable("profile", 5)) {
+        ImGui::TableSetupColumn(fields::kVariance.unit);
+        for (const char* channel : {"red", "green", "blue"}) ImGui::TableSetupColumn(channel);
+        ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::GetTextLineHeight());
+        ImGui::TableHeadersRow();
+        std::size_t remove = profile.gaussians.size();
+        for (std::size_t i = 0; i < profile.gaussians.size(); ++i) {
+            bool removed = false;
+            drawGaussian(profile, i, removed);
+            if (removed) remove = i;
+        }
+        if (remove < profile.gaussians.size()) removeGaussian(profile, remove), edit = "Remove a Gaussian";
+        drawTotals(profile);
+        ImGui::EndTable();
+    }
+    const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
+    const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
+    if (ImGui::Button("Add", {width, 0})) addGaussian(profile), edit = "Add a Gaussian";
+    hint("A Gaussian three times as wide, without weight");
+    ImGui::SameLine(0, gap);
+    if (ImGui::Button("Normalise", {width, 0})) profile = normalized(profile), edit = "Normalise the profile";
+    hint("Sorts by variance and scales weights so that each channel sums to 1");
+    ImGui::SameLine(0, gap);
+    if (ImGui::Button("Three-layer", {width, 0})) profile = skin::threeLayerProfile(), edit = "Three-layer skin";
+    hint("The six Gaussians of three-layer skin, GPU Gems 3, ch. 14");
+    if (profile != before)
+        session.edits.apply(edit, [&](Document& document) { setProfile(document, index, profile); });
+}
+
 void drawParameters(Session& session, std::size_t index) {
     SkinMaterial skin = *session.document().skin[index];
-    bool changed = dragRow("Scale", skin.scale, 0.005f, 0.01, 100, "%.3g", true);
-    hint("Multiplies how far light travels in the skin");
-    changed |= sliderRow("Mix", skin.mix, 0, 1, "%.2f");
-    hint("0: albedo colours the light after scattering, 1: before");
-    changed |= sliderRow("Roughness", skin.roughness, 0.02, 1, "%.2f");
-    changed |= sliderRow("Specular", skin.specular, 0, 3, "%.2f");
-    changed |= checkRow("Translucent", skin.translucency);
-    hint("Light from behind shines through");
-    changed |= dragRow("mm per unit", skin.mmPerUnit, 1, 0.001, 1e6, "%.4g", true);
-    ImGui::TextDisabled("Profile of %zu Gaussians", skin.profile.gaussians.size());
+    bool changed = fieldRow(fields::kScale, skin.scale);
+    changed |= fieldRow(fields::kMix, skin.mix);
+    changed |= fieldRow(fields::kRoughness, skin.roughness);
+    changed |= fieldRow(fields::kSpecular, skin.specular);
+    changed |= fieldRow(fields::kTranslucency, skin.translucency);
+    changed |= fieldRow(fields::kMmPerUnit, skin.mmPerUnit);
     const std::string& name = session.geometry->materials[index].name;
     if (changed)
         session.edits.apply("Skin of " + name, [&](Document& document) { document.skin[index] = skin; });
@@ -60,6 +126,7 @@ void drawParameters(Session& session, std::size_t index) {
             }
         });
     }
+    drawProfile(session, index, name);
 }
 
 }  // namespace

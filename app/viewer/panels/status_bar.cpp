@@ -19,12 +19,16 @@ std::string workText(const Session& session) {
     } else if (session.picture && session.picture->refined > 0 &&
                session.picture->version == session.edits.version()) {
         const WorkerResult& picture = *session.picture;
-        const char* state = picture.refined >= RenderWorker::kRefinements ? "Converged"
-                            : worker.aside > 0                            ? "Complete"
-                                                                          : "Refining";
-        std::snprintf(text, sizeof text, "%s, %d \xc3\x97 %d in %.1f s, %d of %d", state,
-                      picture.display.width, picture.display.height, picture.seconds, picture.refined,
-                      RenderWorker::kRefinements);
+        char state[64] = "Converged";
+        if (!picture.converged && picture.refined < Refinement::kPixelPictures) {
+            std::snprintf(state, sizeof state, "Refining edges, %d of %d", picture.refined,
+                          Refinement::kPixelPictures);
+        } else if (!picture.converged) {
+            std::snprintf(state, sizeof state, "Refining shadows, %d of at most %d", picture.shadowSets,
+                          Refinement::kMostShadowPictures);
+        }
+        std::snprintf(text, sizeof text, "%s; %d \xc3\x97 %d in %.1f s", state, picture.display.width,
+                      picture.display.height, picture.seconds);
         if (worker.aside > 0)
             std::snprintf(text + std::strlen(text), sizeof text - std::strlen(text), "; %zu more to come",
                           worker.aside);

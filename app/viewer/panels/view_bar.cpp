@@ -17,29 +17,53 @@ constexpr std::pair<const char*, double> kShapes[] = {{"Fill", 0.0},     {"16:9"
                                                       {"4:3", 4.0 / 3},  {"1:1", 1.0},       {"4:5", 0.8},
                                                       {"9:16", 9.0 / 16}};
 
+// Widths of the bar in which all of it finds room, and in which the shape still does; in sizes of the font.
+constexpr float kRoomForAll = 46, kRoomForShape = 36;
+
+bool isShown(const Session& session, const Overlay& overlay) {
+    return session.overlay.aov == overlay.aov && session.overlay.inspect.what == overlay.inspect;
+}
+
+// Which Gaussian's level is shown, where levels are.
+void drawLevel(Session& session) {
+    const int levels = session.picture ? session.picture->stats.gaussians : 0;
+    if (session.overlay.inspect.what != Inspect::What::level || levels == 0) return;
+    int& index = session.overlay.inspect.index;
+    index = std::clamp(index, 0, levels - 1);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 4);
+    int number = index + 1;
+    if (ImGui::SliderInt("##level", &number, 1, levels, "%d", ImGuiSliderFlags_AlwaysClamp)) index = number - 1;
+    hint("Which level, from the narrowest");
+}
+
 void drawOverlayChoice(Session& session) {
     const Overlay* shown = &overlays()[0];
     for (const Overlay& overlay : overlays())
-        if (session.overlay == overlay.aov) shown = &overlay;
+        if (isShown(session, overlay)) shown = &overlay;
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7.5f);
-    if (ImGui::BeginCombo("##show", shown->label, ImGuiComboFlags_HeightLarge)) {
+    if (ImGui::BeginCombo("##show", shown->label, ImGuiComboFlags_HeightLargest)) {
         for (const Overlay& overlay : overlays()) {
-            if (ImGui::Selectable(overlay.label, &overlay == shown)) session.overlay = overlay.aov;
+            if (ImGui::Selectable(overlay.label, &overlay == shown))
+                session.overlay = {overlay.aov, {overlay.inspect, 0}};
             if (*overlay.scale) hint(overlay.scale);
         }
         ImGui::EndCombo();
     }
     hint(*shown->scale ? shown->scale : "What is shown: the picture, or what it is made of");
+    drawLevel(session);
 }
 
-void drawPlacing(Session& session) {
+void drawPlacing(Session& session, bool narrow) {
     const auto choose = [&](const char* text, PlaceBy by, const char* help) {
         if (toggleButton(text, session.placing == by, accentColor()))
             session.placing = session.placing == by ? std::nullopt : std::optional(by);
         hint(help);
     };
-    ImGui::TextDisabled("Place light by");
-    ImGui::SameLine();
+    if (!narrow) {
+        ImGui::TextDisabled("Place light by");
+        ImGui::SameLine();
+    }
     choose("highlight", PlaceBy::highlight,
            "Drag on a face: the chosen light moves so that its highlight falls under the mouse (L; or hold "
            "Ctrl)");
@@ -76,10 +100,13 @@ void drawViewBar(Session& session, const PixelRect& where) {
     drawOverlayChoice(session);
     ImGui::SameLine(0, 16 * scale);
     ImGui::AlignTextToFramePadding();
-    drawPlacing(session);
+    // What matters least goes first where there is no room: the label, then the shape.
+    const float room = ImGui::GetWindowWidth() / ImGui::GetFontSize();
+    drawPlacing(session, room < kRoomForAll);
     ImGui::SameLine(0, 16 * scale);
     if (toggleButton("Mixer", session.mixer.shown, accentColor())) session.mixer.shown = !session.mixer.shown;
     hint("Every light's own picture with a fader: mixing them renders nothing (X)");
+    if (room < kRoomForShape) return ImGui::End();
     // At the right edge, or after the rest where that leaves no room.
     const float right = ImGui::GetWindowWidth() - ImGui::GetFontSize() * 4.5f - 8 * scale;
     ImGui::SameLine();

@@ -24,6 +24,94 @@ void label(const char* text) {
     ImGui::SetNextItemWidth(-1);
 }
 
+namespace {
+
+std::string formatOf(const Field& field, const char* unit) {
+    const bool degrees = field.shownPerUnit == fields::kDegrees;
+    const std::string shown = unit ? unit : degrees ? "\xc2\xb0" : field.unit;
+    std::string format = field.format;
+    if (!shown.empty() && shown != "\xc2\xb0") format += ' ';
+    return format + shown;
+}
+
+void fieldHint(const Field& field) {
+    if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
+    const std::string allowed = field.allowed();
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
+    ImGui::TextUnformatted(field.help);
+    if (*field.key) ImGui::TextDisabled("%s: %s", field.key, allowed.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+}  // namespace
+
+bool fieldPartRow(const Field& field, const char* text, double& value) {
+    double shown = value * field.shownPerUnit;
+    const std::string format = formatOf(field, nullptr);
+    const bool changed =
+        field.step > 0
+            ? dragRow(text, shown, static_cast<float>(field.step), field.low, field.high, format.c_str(),
+                      field.logarithmic)
+            : sliderRow(text, shown, field.low, field.high, format.c_str(), field.logarithmic);
+    fieldHint(field);
+    if (changed) value = shown / field.shownPerUnit;
+    return changed;
+}
+
+bool fieldCell(const Field& field, double& value) {
+    const ImGuiSliderFlags flags =
+        ImGuiSliderFlags_AlwaysClamp | (field.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    const bool changed =
+        ImGui::DragScalar("##cell", ImGuiDataType_Double, &value, static_cast<float>(field.step), &field.low,
+                          &field.high, field.format, flags);
+    fieldHint(field);
+    return changed;
+}
+
+bool fieldRow(const Field& field, double& value, const char* unit) {
+    Field shown = field;
+    if (unit) shown.unit = unit;
+    return fieldPartRow(shown, field.label, value);
+}
+
+bool fieldRow(const Field& field, int& value, const char* zero) {
+    const bool changed = intRow(field.label, value, static_cast<int>(field.low), static_cast<int>(field.high),
+                                value == 0 ? zero : "%d");
+    fieldHint(field);
+    return changed;
+}
+
+bool fieldRow(const Field& field, bool& value) {
+    const bool changed = checkRow(field.label, value);
+    fieldHint(field);
+    return changed;
+}
+
+bool fieldRow(const Field& field, std::string& value) {
+    const bool changed = textRow(field.label, value);
+    fieldHint(field);
+    return changed;
+}
+
+bool choiceOf(const char* text, const char* option, int& index, std::span<const char* const> names) {
+    label(text);
+    ImGui::PushID(text);
+    const bool open = ImGui::BeginCombo("##choice", names[static_cast<std::size_t>(index)]);
+    if (!open) optionHint(option);
+    bool changed = false;
+    for (std::size_t i = 0; open && i < names.size(); ++i) {
+        const bool chosen = static_cast<int>(i) == index;
+        if (!ImGui::Selectable(names[i], chosen) || chosen) continue;
+        index = static_cast<int>(i);
+        changed = true;
+    }
+    if (open) ImGui::EndCombo();
+    ImGui::PopID();
+    return changed;
+}
+
 bool dragRow(const char* text, double& value, float speed, double min, double max, const char* format,
              bool logarithmic) {
     label(text);

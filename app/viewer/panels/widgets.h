@@ -1,14 +1,36 @@
 // Rows of a panel: a label on the left, its control on the right, each change an undoable edit.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "app/viewer/session.h"
+#include "renderer/scene/fields.h"
 
 namespace cutis::app {
 
 // Puts the label down; the next control fills the rest of the row.
 void label(const char* text);
+// A row of the table of fields (renderer/scene/fields.h): its name, its control over its range, its unit, its help
+// as a tooltip. Returns true when the user changed the value. `unit` in place of the field's own.
+bool fieldRow(const Field& field, double& value, const char* unit = nullptr);
+bool fieldRow(const Field& field, int& value, const char* zero = "automatic");  // `zero`: what 0 is called
+bool fieldRow(const Field& field, bool& value);
+bool fieldRow(const Field& field, std::string& value);
+// The same, with a label of its own: one number of several.
+bool fieldPartRow(const Field& field, const char* text, double& value);
+bool choiceOf(const char* text, const char* option, int& index, std::span<const char* const> names);
+// The control alone, as wide as the next item is set to be.
+bool fieldCell(const Field& field, double& value);
+// One of an enumeration, by the names that the command line has for it.
+template <class Enum, std::size_t kCount>
+bool enumRow(const char* text, const char* option, Enum& value, const char* const (&names)[kCount]) {
+    int index = static_cast<int>(value);
+    if (!choiceOf(text, option, index, names)) return false;
+    value = static_cast<Enum>(index);
+    return true;
+}
+
 // Rows. Each returns true when the user changed the value; the label is also the control's identity.
 bool dragRow(const char* text, double& value, float speed, double min, double max, const char* format,
              bool logarithmic = false);

@@ -1,0 +1,113 @@
+// What the atlas holds, seen on the surface.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/frame/small_scene.h"
+
+namespace cutis::test {
+namespace {
+
+class InspectTest : public SmallSceneTest {
+  protected:
+    InspectTest() : renderer_(device()) {
+        small_.settings.width = 80;
+        small_.settings.height = 60;
+    }
+
+    Picture inspected(Inspect::What what, int index = 0) {
+        RenderSettings settings = small_.settings;
+        settings.inspect = {what, index};
+        settings.aovs = {"irradiance"};
+        RenderResult result = renderer_.render(small_.input, settings);
+        irradiance_ = result.aovs.at("irradiance");
+        gaussians_ = result.stats.gaussians;
+        mmPerTexel_ = result.stats.atlasMmPerTexel;
+        return result.aovs.at(kInspectedName);
+    }
+
+    // Mean of the first channel over pixels that show something.
+    static double meanOf(const Picture& picture) {
+        double sum = 0, count = 0;
+        for (std::size_t i = 0; i < picture.values.size(); i += 3)
+            if (picture.values[i] > 0) sum += picture.values[i], ++count;
+        return count > 0 ? sum / count : 0;
+    }
+    // Sum of absolute differences to the neighbour on the right, over the sum of values.
+    static double roughness(const Picture& picture) {
+        double change = 0, whole = 0;
+        for (int y = 0; y < picture.height; ++y) {
+            for (int x = 0; x + 1 < picture.width; ++x) {
+                const float a = picture.values[(std::size_t(y) * picture.width + x) * 3];
+                const float b = picture.values[(std::size_t(y) * picture.width + x + 1) * 3];
+                if (a > 0 && b > 0) change += std::abs(a - b), whole += a;
+            }
+        }
+        return change / whole;
+    }
+
+    SmallScene small_;
+    Renderer renderer_;
+    Picture irradiance_;
+    int gaussians_ = 0;
+    double mmPerTexel_ = 0;
+};
+
+TEST_F(InspectTest, TexelsAreAsDenseAsTheStatsSay) {
+    const Picture density = inspected(Inspect::What::texelDensity);
+    // The stats give the median over the atlas, this the mean over what is seen.
+    EXPECT_NEAR(meanOf(density) * mmPerTexel_, 1, 0.5);
+    const Picture stretch = inspected(Inspect::What::stretch);
+    for (std::size_t i = 0; i < stretch.values.size(); ++i)
+        if (stretch.values[i] != 0) EXPECT_GE(stretch.values[i], 0.999f);
+    EXPECT_GT(meanOf(stretch), 1);
+}
+
+TEST_F(InspectTest, LevelsAreEverSmoother) {
+    inspected(Inspect::What::level);
+    ASSERT_GT(gaussians_, 2);
+    const double first = roughness(inspected(Inspect::What::level, 0));
+    const double last = roughness(inspected(Inspect::What::level, gaussians_ - 1));
+    EXPECT_GT(first, 0);
+    EXPECT_LT(last, first);
+    EXPECT_EQ(meanOf(inspected(Inspect::What::level, 99)), 0) << "there is no such level";
+}
+
+TEST_F(InspectTest, ShadowIsTheShareThatArrives) {
+    const Picture shadow = inspected(Inspect::What::shadow, 0);
+    double least = 1, most = 0;
+    for (std::size_t i = 0; i < shadow.values.size(); i += 3) {
+        if (irradiance_.values[i] <= 0) continue;
+        least = std::min<double>(least, shadow.values[i]);
+        most = std::max<double>(most, shadow.values[i]);
+    }
+    EXPECT_GE(least, 0);
+    EXPECT_EQ(most, 1) << "somewhere nothing is in its way";
+    EXPECT_EQ(meanOf(inspected(Inspect::What::shadow, 99)), 0) << "there is no such light";
+}
+
+// A picture is the same whether something is inspected beside it or not.
+TEST_F(InspectTest, LeavesThePictureAlone) {
+    const RenderResult plain = renderer_.render(small_.input, small_.settings);
+    RenderSettings settings = small_.settings;
+    settings.inspect = {Inspect::What::stretch, 0};
+    EXPECT_EQ(renderer_.render(small_.input, settings).picture.values, plain.picture.values);
+    EXPECT_FALSE(plain.aovs.contains(kInspectedName));
+}
+
+// Other seeds are other samples of the same light: single pictures differ, all are as bright.
+TEST_F(InspectTest, SeedsChangeSoftShadowsAlone) {
+    const auto pictureOf = [&](std::uint32_t seed) {
+        RenderSettings settings = small_.settings;
+        settings.seed = seed;
+        return renderer_.render(small_.input, settings).picture.values;
+    };
+    const std::vector<float> first = pictureOf(0), other = pictureOf(1);
+    double difference = 0, whole = 0;
+    for (std::size_t i = 0; i < first.size(); ++i) difference += std::abs(first[i] - other[i]), whole += first[i];
+    EXPECT_GT(difference / whole, 1e-5);
+    EXPECT_LT(difference / whole, 0.1);
+    EXPECT_EQ(pictureOf(0), first);
+}
+
+}  // namespace
+}  // namespace cutis::test
