@@ -21,29 +21,38 @@ namespace cutis::app {
 
 std::span<const Command> commands() {
     static constexpr Command kCommands[] = {
-        {"", "view", "[SCENE]", 0, 1, kViewer, false, "The viewer: a window in which rigs are made and compared",
-         "SCENE is a .gltf or .glb file; without one it is 'default', the scene of real people that set-up installs. "
+        {"", "view", "[SCENE]", 0, 1, kViewer, false,
+         "The viewer: a window in which rigs are made and compared",
+         "SCENE is a .gltf or .glb file; without one it is 'default', the scene of real people that set-up "
+         "installs. "
          "The word view may be left out. F1 in the window lists its hot keys.",
          runView},
         {"", "render", "SCENE", 1, 1, kRender, true, "One picture of a glTF scene",
          "SCENE is a .gltf or .glb file, or 'default' for the scene of real people that set-up installs.",
          runRender},
         {"", "plan", "SCENE", 1, 1, kPlan, false, "What a picture would run, what it leaves out and why",
-         "Lists each row of the pass table for the picture that cutis render would make: on or off, why, and the GPU "
+         "Lists each row of the pass table for the picture that cutis render would make: on or off, why, and "
+         "the GPU "
          "memory that it writes or works in. Nothing is drawn unless --measure asks for times.",
          runPlan},
         {"", "reference", "SCENE", 1, 1, kReference, true, "The same picture evaluated exactly, on the CPU",
-         "Takes what cutis render takes; what only concerns the GPU has no effect. It works until the standard error is "
-         "below --error or --budget is spent, and prints the error that it reached. Interrupted (Ctrl-C) or asked again "
+         "Takes what cutis render takes; what only concerns the GPU has no effect. It works until the "
+         "standard error is "
+         "below --error or --budget is spent, and prints the error that it reached. Interrupted (Ctrl-C) or "
+         "asked again "
          "for less error, it goes on from where it was: its state lies in the cache.",
          runReference},
-        {"", "compare", "SCENE", 1, 1, kCompare, true, "Two rigs side by side, or each light alone against all",
-         "Writes pictures, difference maps, figures and index.html, which opens from disk. With --a and --b it compares "
+        {"", "compare", "SCENE", 1, 1, kCompare, true,
+         "Two rigs side by side, or each light alone against all",
+         "Writes pictures, difference maps, figures and index.html, which opens from disk. With --a and --b "
+         "it compares "
          "those rigs; without, each light of the rig and the environment alone with all of them together.",
          runCompare},
         {"", "measure", "SCENE", 1, 1, kMeasure, true, "Error against run time over a sweep of settings",
-         "Renders the scene with each setting of a sweep and compares every picture with the exact one (cutis "
-         "reference, kept in the cache). Writes measure.csv, measure.json, plots and index.html, which opens from disk.",
+         "Renders the scene with each setting of a sweep and compares every picture with the exact one "
+         "(cutis "
+         "reference, kept in the cache). Writes measure.csv, measure.json, plots and index.html, which opens "
+         "from disk.",
          runMeasure},
         {"rig", "list", "", 0, 0, kNoCommand, false, "The built-in lighting presets", "", runRigList},
         {"rig", "show", "RIG", 1, 1, kNoCommand, false,

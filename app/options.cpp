@@ -193,12 +193,13 @@ std::vector<Option> makeOptions() {
              listOf(reference::kAovNames),
          false, [](Request& r, const std::string& text) { parseAovs(r, text, reference::kAovNames); }},
         {"--halves", "", kReference, output,
-         "Also write two estimates that share no random number, OUT.a.exr and OUT.b.exr, and OUT.a.diffuse.exr and "
+         "Also write two estimates that share no random number, OUT.a.exr and OUT.b.exr, and "
+         "OUT.a.diffuse.exr and "
          "OUT.b.diffuse.exr: what makes an error estimate unbiased",
          false, [](Request& r, const std::string&) { r.halves = true; }},
         {"--stats", "FILE", kViewer, "Window",
-         "When the window closes, write how long frames took, and how long pictures took to follow edits", false,
-         [](Request& r, const std::string& text) { r.stats = parseText(text); }},
+         "When the window closes, write how long frames took, and how long pictures took to follow edits",
+         false, [](Request& r, const std::string& text) { r.stats = parseText(text); }},
         {"--stats", "FILE", kPicture, output,
          "Write what ran, what was left out and why, times and bytes as JSON", false,
          [](Request& r, const std::string& text) { r.stats = parseText(text); }},
@@ -208,43 +209,54 @@ std::vector<Option> makeOptions() {
         {"-o, --output", "DIR", kCompare | kMeasure, output,
          "The folder of the report: a new one, or one that holds an earlier report", false,
          [](Request& r, const std::string& text) { r.outputs.push_back(parseText(text)); }},
-        {"--size", "WxH", kPicture | kPlan | kCompare, output, "Pixels of the picture (default: 1280x720)", false, parseSize},
+        {"--size", "WxH", kPicture | kPlan | kCompare, output, "Pixels of the picture (default: 1280x720)",
+         false, parseSize},
         {"--json", "", kPlan, output, "As JSON: the keys of --stats of cutis render, then all rows", false,
          [](Request& r, const std::string&) { r.json = true; }},
-        {"--measure", "", kPlan, output, "Draw the picture a few times and give the median time of each row", false,
-         [](Request& r, const std::string&) { r.measure = true; }},
+        {"--measure", "", kPlan, output, "Draw the picture a few times and give the median time of each row",
+         false, [](Request& r, const std::string&) { r.measure = true; }},
         {"--size", "WxH", kViewer, "Window", "Pixels of the window (default: 1280x720)", false, parseSize},
         {"--ui-scale", "X", kViewer, "Window",
          "Size of text and controls: 1 is 100 %, 2 is 200 % (default: what the desktop asks for)", false,
-         [](Request& r, const std::string& text) { r.uiScale = parseNumber(text, kMinUiScale, kMaxUiScale); }},
-        {"--size", "WxH", kMeasure, output, "Pixels of the pictures that are compared (default: 480x270)", false,
+         [](Request& r, const std::string& text) {
+             r.uiScale = parseNumber(text, kMinUiScale, kMaxUiScale);
+         }},
+        {"--size", "WxH", kMeasure, output, "Pixels of the pictures that are compared (default: 480x270)",
+         false,
          [](Request& r, const std::string& text) {
              parseSize(r, text);
              r.measureSize = {r.settings.width, r.settings.height};
          }},
 
-        {"--a", "RIG", kCompare, light, "The first rig of two, in place of each light alone: as --rig takes it", false,
+        {"--a", "RIG", kCompare, light,
+         "The first rig of two, in place of each light alone: as --rig takes it", false,
          [](Request& r, const std::string& text) { r.rigA = parseText(text); }},
         {"--b", "RIG", kCompare, light, "The second rig", false,
          [](Request& r, const std::string& text) { r.rigB = parseText(text); }},
 
         {"--sweep", "SWEEP", kMeasure, "Accuracy",
-         "The settings to try: quality, lights (1 to 64), characters (1 to 16), size (of the atlas, 256 to 8192), or a "
+         "The settings to try: quality, lights (1 to 64), characters (1 to 16), size (of the atlas, 256 to "
+         "8192), or a "
          "JSON file of settings (default: quality)",
          false, [](Request& r, const std::string& text) { r.sweep = parseText(text); }},
-        {"--repeats", "N", kMeasure, "Accuracy", "Timed runs of each setting, after one that warms up (default: 3)", false,
-         [](Request& r, const std::string& text) { r.repeats = static_cast<int>(parseInteger(text, 1, kMaxRepeats)); }},
+        {"--repeats", "N", kMeasure, "Accuracy",
+         "Timed runs of each setting, after one that warms up (default: 3)", false,
+         [](Request& r, const std::string& text) {
+             r.repeats = static_cast<int>(parseInteger(text, 1, kMaxRepeats));
+         }},
         {"--tolerance", "E", kMeasure, "Accuracy",
          "Name the cheapest setting whose error of diffuse light is below this: 1% or 0.01", false,
          [](Request& r, const std::string& text) { r.tolerance = parseShare(text); }},
 
         {"--tolerance", "E", kRender, "Accuracy",
-         "Take the cheapest setting whose error of diffuse light is below this, 1% or 0.01, by the last cutis measure "
+         "Take the cheapest setting whose error of diffuse light is below this, 1% or 0.01, by the last "
+         "cutis measure "
          "of this scene on this device, else by that of the default scene",
          false, [](Request& r, const std::string& text) { r.tolerance = parseShare(text); }},
 
         {"--error", "E", kReference | kMeasure, "Accuracy",
-         "Stop when the standard error of the picture and that of its diffuse light are below this, relative to them: "
+         "Stop when the standard error of the picture and that of its diffuse light are below this, relative "
+         "to them: "
          "0.2% or 0.002 (default: 0.5% without --budget, none with it)",
          false, [](Request& r, const std::string& text) { r.error = parseShare(text); }},
         {"--budget", "TIME", kReference | kMeasure, "Accuracy",
@@ -267,19 +279,23 @@ std::vector<Option> makeOptions() {
          [](Request& r, const std::string& text) {
              r.environmentIntensity = parseField(text, fields::kEnvironmentIntensity);
          }},
-        {"--env-rotation", "DEG", kView, light,
-         helpOf(fields::kRotation) + ", in place of the rig's", false,
+        {"--env-rotation", "DEG", kView, light, helpOf(fields::kRotation) + ", in place of the rig's", false,
          [](Request& r, const std::string& text) {
              r.environmentRotation = parseField(text, fields::kRotation);
          }},
         {"--background", "NAME", kRender | kViewer, view,
-         "What lies behind the scene: none, env, the environment, or blurred. Alpha stays the coverage (default: none)",
+         "What lies behind the scene: none, env, the environment, or blurred. Alpha stays the coverage "
+         "(default: none)",
          false,
-         [](Request& r, const std::string& text) { r.background = parseChoice<Background>(text, kBackgroundNames); }},
+         [](Request& r, const std::string& text) {
+             r.background = parseChoice<Background>(text, kBackgroundNames);
+         }},
 
         {"--camera", "CAMERA", kView, view,
-         "A camera's name or index, 'auto', 'auto:AZ,EL': framed on the heads from that azimuth and elevation in "
-         "degrees, or 'orbit:X,Y,Z,AZ,EL,DISTANCE,FOV': looking at a point in metres from these angles (default: the "
+         "A camera's name or index, 'auto', 'auto:AZ,EL': framed on the heads from that azimuth and "
+         "elevation in "
+         "degrees, or 'orbit:X,Y,Z,AZ,EL,DISTANCE,FOV': looking at a point in metres from these angles "
+         "(default: the "
          "first camera of the scene, else auto)",
          false, [](Request& r, const std::string& text) { r.camera = parseText(text); }},
 
@@ -299,25 +315,31 @@ std::vector<Option> makeOptions() {
              r.settings.gaussians = static_cast<int>(parseInteger(text, 1, kMaxGaussians));
          }},
         {"--merge", "NAME", kPicture | kPlan | kCompare | kViewer, quality,
-         "How the thicknesses that several lights see become one: min, the smallest, or opposite, the distance "
+         "How the thicknesses that several lights see become one: min, the smallest, or opposite, the "
+         "distance "
          "of the other side of the skin, whatever the lights (default: min)",
          false,
          [](Request& r, const std::string& text) {
              r.settings.merge = parseChoice<Merge>(text, kMergeNames);
          }},
         {"--chain", "NAME", kPicture | kPlan | kCompare | kViewer, quality,
-         "How light is diffused: exact, or published, the chain of blurs as GPU Gems 3 prints it, to compare with "
+         "How light is diffused: exact, or published, the chain of blurs as GPU Gems 3 prints it, to compare "
+         "with "
          "(default: exact)",
          false,
          [](Request& r, const std::string& text) {
              r.settings.chain = parseChoice<Chain>(text, kChainNames);
          }},
         {"--taps", "N", kPicture | kPlan | kCompare | kViewer, quality,
-         "Texels that each blur reads on either side, at the most: fewer are faster and less exact (default: 12)", false,
+         "Texels that each blur reads on either side, at the most: fewer are faster and less exact (default: "
+         "12)",
+         false,
          [](Request& r, const std::string& text) {
              r.settings.taps = static_cast<int>(parseInteger(text, 1, kMaxTaps));
          }},
-        {"--seed", "N", kView, quality, "Starts the random numbers of whatever uses any; of a picture, other samples of its area lights and its sky "
+        {"--seed", "N", kView, quality,
+         "Starts the random numbers of whatever uses any; of a picture, other samples of its area lights and "
+         "its sky "
          "(default: 0)",
          false,
          [](Request& r, const std::string& text) {

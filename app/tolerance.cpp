@@ -49,8 +49,8 @@ bool anyMeasurement() {
 }
 
 std::string KnownFront::where() const {
-    return std::string(ofThisScene ? "this scene" : "the default scene") + " at " + std::to_string(front.width) +
-           "x" + std::to_string(front.height) + " on " + front.device;
+    return std::string(ofThisScene ? "this scene" : "the default scene") + " at " +
+           std::to_string(front.width) + "x" + std::to_string(front.height) + " on " + front.device;
 }
 
 void applyTolerance(double tolerance, Inputs& inputs, const gpu::DeviceInfo& device,
@@ -58,7 +58,8 @@ void applyTolerance(double tolerance, Inputs& inputs, const gpu::DeviceInfo& dev
     const KnownFront known = knownFront(inputs, device);
     const MeasuredFront& front = known.front;
     const std::string where = known.where();
-    const std::string hint = known.ofThisScene ? "" : "; cutis measure of this scene would tell what holds for it";
+    const std::string hint =
+        known.ofThisScene ? "" : "; cutis measure of this scene would tell what holds for it";
     const MeasuredSetting* chosen = cheapestWithin(front, tolerance);
     if (!chosen) {
         const MeasuredSetting* best = closest(front);

@@ -134,7 +134,8 @@ void takeSun(Session& session) {
         const std::optional<EnvironmentSun> sun = findSun(loadEnvironment(settings.file, false));
         if (!sun) return [](Session& s) { s.say("Nothing stands out in this environment like a sun"); };
         return [light = sunLight(*sun, settings), settings](Session& s) {
-            if (s.document().rig.environment != settings) return s.say("The environment has changed meanwhile");
+            if (s.document().rig.environment != settings)
+                return s.say("The environment has changed meanwhile");
             s.edits.endGesture();
             s.edits.apply("Take the sun out",
                           [&](Document& document) { s.selectedLight = takeSunOut(document, light); });

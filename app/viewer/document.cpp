@@ -37,7 +37,8 @@ Rig effectiveRig(const Document& document) {
 void applyQuality(const Quality& quality, const MeasuredFront& front, Rig& rig, RenderSettings& settings) {
     if (const MeasuredSetting* chosen = measuredOf(quality, front); quality.tolerance > 0 && chosen) {
         Scene unused;  // of settings that repeat characters, which none in a front does
-        applySetting(settingForSize(chosen->setting, front, settings.width, settings.height), unused, rig, settings);
+        applySetting(settingForSize(chosen->setting, front, settings.width, settings.height), unused, rig,
+                     settings);
         return;
     }
     settings.irradianceSize = quality.irradianceSize;
@@ -58,10 +59,11 @@ const MeasuredSetting* measuredOf(const Quality& quality, const MeasuredFront& f
     own.merge = kMergeNames[static_cast<int>(quality.merge)];
     own.chain = kChainNames[static_cast<int>(quality.chain)];
     own.taps = quality.taps == Quality{}.taps ? 0 : quality.taps;
-    const auto found = std::find_if(front.settings.begin(), front.settings.end(), [&](const MeasuredSetting& row) {
-        own.name = row.setting.name;
-        return row.setting == own;
-    });
+    const auto found =
+        std::find_if(front.settings.begin(), front.settings.end(), [&](const MeasuredSetting& row) {
+            own.name = row.setting.name;
+            return row.setting == own;
+        });
     return found == front.settings.end() ? nullptr : &*found;
 }
 

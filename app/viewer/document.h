@@ -57,14 +57,14 @@ struct Document {
 // The rig that lights the picture: muted lights off, and while some are solo, all others off, solo ones on.
 Rig effectiveRig(const Document& document);
 
-// Puts the quality into the settings of a picture and, where a tolerance chooses them, into the samples of its
-// rig. Where nothing in `front` is close enough it takes what is closest.
+// Puts the quality into the settings of a picture and, where a tolerance chooses them, into the samples of
+// its rig. Where nothing in `front` is close enough it takes what is closest.
 void applyQuality(const Quality& quality, const MeasuredFront& front, Rig& rig, RenderSettings& settings);
 // What was measured of that quality; nullptr when nothing was.
 const MeasuredSetting* measuredOf(const Quality& quality, const MeasuredFront& front);
 
-// Takes the sun out of the environment: it shines without, and a light named like it, which is returned, gives
-// what it gave.
+// Takes the sun out of the environment: it shines without, and a light named like it, which is returned,
+// gives what it gave.
 int takeSunOut(Document& document, const Light& sun);
 
 // Of a material's profile. A Gaussian more, wider than the others, without weight; none less than one.
@@ -72,7 +72,8 @@ void addGaussian(skin::Profile& profile);
 void removeGaussian(skin::Profile& profile, std::size_t index);
 // A material's profile, its weights held to what a profile may be: no channel gives back more than it gets.
 void setProfile(Document& document, std::size_t material, const skin::Profile& profile);
-// Sorts by variance and scales the weights of each channel so that they sum to 1: the skin takes no light away.
+// Sorts by variance and scales the weights of each channel so that they sum to 1: the skin takes no light
+// away.
 skin::Profile normalized(const skin::Profile& profile);
 
 // Adds a light and returns its index. A placed spot of a useful brightness, in front of everyone.

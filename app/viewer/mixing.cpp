@@ -65,8 +65,8 @@ void renew(Session& session) {
 }  // namespace
 
 bool mixShows(const Session& session) {
-    return session.mixer.shown && session.mixer.complete() && session.overlay.aov.empty() && sameView(session) &&
-           canMix(session.mixer.contributions, session.document());
+    return session.mixer.shown && session.mixer.complete() && session.overlay.aov.empty() &&
+           sameView(session) && canMix(session.mixer.contributions, session.document());
 }
 
 void updateMixer(Session& session) {

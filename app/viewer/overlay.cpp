@@ -16,7 +16,8 @@ constexpr Overlay kOverlays[] = {
     {"diffuse", "Diffuse", "light that left the skin diffusely, exposed"},
     {"specular", "Specular", "light that was reflected, exposed"},
     {"irradiance", "Irradiance", "light that arrives, over pi, exposed"},
-    {kInspectedName, "Blurred level", "the light within the skin, blurred to the width of one Gaussian, over pi, exposed",
+    {kInspectedName, "Blurred level",
+     "the light within the skin, blurred to the width of one Gaussian, over pi, exposed",
      Inspect::What::level},
     {kInspectedName, "Shadow", "of the chosen light: white where it arrives, black where it does not",
      Inspect::What::shadow},
@@ -25,9 +26,11 @@ constexpr Overlay kOverlays[] = {
     {"normal", "Normal", "red +X, green +Y, blue +Z"},
     {"depth", "Depth", "white the nearest, black the farthest"},
     {"character", "Character", "one colour a character"},
-    {kInspectedName, "Stretch", "of the atlas: black even, through red and yellow, white 4 times longer one way",
+    {kInspectedName, "Stretch",
+     "of the atlas: black even, through red and yellow, white 4 times longer one way",
      Inspect::What::stretch},
-    {kInspectedName, "Texel density", "of the atlas: black 0, through red and yellow, white 8 texels a millimetre",
+    {kInspectedName, "Texel density",
+     "of the atlas: black 0, through red and yellow, white 8 texels a millimetre",
      Inspect::What::texelDensity},
 };
 

@@ -162,9 +162,8 @@ void RenderWorker::run() {
         bool restarts = false;
         {
             std::unique_lock lock(mutex_);
-            changed_.wait(lock, [this] {
-                return ended_ || next_.has_value() || !aside_.empty() || canRefine();
-            });
+            changed_.wait(lock,
+                          [this] { return ended_ || next_.has_value() || !aside_.empty() || canRefine(); });
             if (ended_) break;
             status_.working = true;
             restarts = std::exchange(restarts_, false);
@@ -259,15 +258,16 @@ bool RenderWorker::showAgain(const Job& job) {
     return true;
 }
 
-// The full picture of shown_. It is refined from then on, one picture at a time, whenever nothing else is asked
-// for.
+// The full picture of shown_. It is refined from then on, one picture at a time, whenever nothing else is
+// asked for.
 void RenderWorker::showFull(WorkerResult result) {
     const bool refines = shown_->state.overlay.aov.empty();
     result.refined = 1;
     result.shadowSets = 1;
     full_ = result;
     full_.display = {};
-    if (refines) refinement_.emplace(result.composed, hasSoftShadows(shown_->state) && renderers_.openShadows);
+    if (refines)
+        refinement_.emplace(result.composed, hasSoftShadows(shown_->state) && renderers_.openShadows);
     publish(std::move(result));
 }
 
@@ -322,7 +322,8 @@ WorkerResult RenderWorker::render(const Job& job, double fraction, bool draft) {
     settings.width = std::max(1, static_cast<int>(std::lround(settings.width * fraction)));
     settings.height = std::max(1, static_cast<int>(std::lround(settings.height * fraction)));
     settings.inspect = job.state.overlay.inspect;
-    if (const std::string& aov = job.state.overlay.aov; !aov.empty() && aov != kInspectedName) settings.aovs = {aov};
+    if (const std::string& aov = job.state.overlay.aov; !aov.empty() && aov != kInspectedName)
+        settings.aovs = {aov};
     RenderResult rendered;
     if (draft) {
         rendered = draw(renderers_.draft, draftOf(job.state), draftOf(settings));
@@ -377,7 +378,8 @@ RenderInput RenderWorker::inputOf(const RenderState& state) {
 const Environment* RenderWorker::environmentOf(const Rig& rig) {
     const EnvironmentSettings& settings = rig.environment;
     if (!settings.enabled || settings.file.empty()) return nullptr;
-    const bool known = environment_ && settings.file == environmentFile_ && settings.sunRemoved == sunRemoved_;
+    const bool known =
+        environment_ && settings.file == environmentFile_ && settings.sunRemoved == sunRemoved_;
     if (known) return &*environment_;
     shadows_.wait();
     environment_.reset();

@@ -52,12 +52,15 @@ std::string commandLine(Session& session) {
     const View& view = document.view;
     line += " --camera " + shellWord(view.camera.empty() ? toSelector(view.orbit) : view.camera);
     if (session.request.skin) line += " --skin " + shellWord(*session.request.skin);
-    const auto nameOf = [](const auto& names, auto value) { return std::string(names[static_cast<int>(value)]); };
+    const auto nameOf = [](const auto& names, auto value) {
+        return std::string(names[static_cast<int>(value)]);
+    };
     if (document.background != Background::none)
         line += " --background " + nameOf(kBackgroundNames, document.background);
     if (quality.tolerance > 0) {
         char digits[32];
-        return line + " --tolerance " + std::string(digits, std::to_chars(digits, digits + 32, quality.tolerance).ptr);
+        return line + " --tolerance " +
+               std::string(digits, std::to_chars(digits, digits + 32, quality.tolerance).ptr);
     }
     if (quality.irradianceSize) line += " --irradiance-size " + std::to_string(quality.irradianceSize);
     if (quality.gaussians) line += " --gaussians " + std::to_string(quality.gaussians);

@@ -59,8 +59,8 @@ View viewOf(const Request& request, const Inputs& inputs) {
     return view;
 }
 
-// What is known of errors on the device that renders. That a measurement cannot be read is no reason not to open
-// the scene.
+// What is known of errors on the device that renders. That a measurement cannot be read is no reason not to
+// open the scene.
 KnownFront frontOf(const Request& request, const Inputs& inputs) {
     try {
         if (anyMeasurement()) return knownFront(inputs, gpu::chosenDevice(request.device));

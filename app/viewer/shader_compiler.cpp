@@ -93,7 +93,8 @@ std::string compile(const fs::path& folder, const std::string& name, std::vector
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
     constexpr auto kRules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
     Includer includer(folder);
-    if (!shader.parse(GetDefaultResources(), 460, false, kRules, includer)) return firstError(file, shader.getInfoLog());
+    if (!shader.parse(GetDefaultResources(), 460, false, kRules, includer))
+        return firstError(file, shader.getInfoLog());
     glslang::TProgram program;
     program.addShader(&shader);
     if (!program.link(kRules)) return firstError(file, program.getInfoLog());

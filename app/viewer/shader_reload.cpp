@@ -32,8 +32,7 @@ void ShaderReload::update(bool asked) {
 std::optional<ShaderReload::News> ShaderReload::take() {
     if (!compiling() || compiling_.wait_for(0s) != std::future_status::ready) return std::nullopt;
     CompiledShaders compiled = compiling_.get();
-    if (!compiled.error.empty())
-        return News{false, "Shaders stay as they were: " + compiled.error};
+    if (!compiled.error.empty()) return News{false, "Shaders stay as they were: " + compiled.error};
     const std::size_t count = compiled.modules.size();
     gpu::replaceShaders(std::move(compiled.modules));
     return News{true, std::to_string(count) + " shaders compiled"};

@@ -1,4 +1,5 @@
-// Shaders that change while the viewer runs: compiled in the background and put to use, or not, with a message.
+// Shaders that change while the viewer runs: compiled in the background and put to use, or not, with a
+// message.
 #pragma once
 
 #include <chrono>

@@ -27,8 +27,8 @@ class ShadowPictures {
     // `done` is called on that thread.
     explicit ShadowPictures(std::function<void()> done) : done_(std::move(done)) {}
 
-    // Not while one is under way. What the input refers to must stay as it is until then; `scene` is kept alive.
-    // `open` gives what renders, the first time.
+    // Not while one is under way. What the input refers to must stay as it is until then; `scene` is kept
+    // alive. `open` gives what renders, the first time.
     void start(std::uint64_t version, const RenderInput& input, const RenderSettings& settings,
                std::shared_ptr<const Scene> scene, const std::function<RenderFunction()>& open);
     bool busy() const;

@@ -114,8 +114,9 @@ class Viewer {
 
     double pause() const {
         if (ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || frames_ > 0) return kActive;
-        const bool working = loader_.loading() || session_.worker.busy || session_.writing.valid() || session_.task.valid() ||
-                             shaders_.compiling() || session_.compareMode == CompareMode::blink || session_.comparing.valid() ||
+        const bool working = loader_.loading() || session_.worker.busy || session_.writing.valid() ||
+                             session_.task.valid() || shaders_.compiling() ||
+                             session_.compareMode == CompareMode::blink || session_.comparing.valid() ||
                              waits_;
         return working ? kWorking : kIdle;
     }

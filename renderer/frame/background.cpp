@@ -14,13 +14,15 @@ namespace {
 constexpr int kBlurredWidth = 96, kBlurredHeight = 48;  // 3.75 degrees a texel, half of the blur
 constexpr double kBlur = 8 * std::numbers::pi / 180;    // standard deviation along the sphere
 
-// Convolved with a von Mises-Fisher lobe of that deviation, exp((cos - 1) / kBlur²): the Gaussian of a sphere.
+// Convolved with a von Mises-Fisher lobe of that deviation, exp((cos - 1) / kBlur²): the Gaussian of a
+// sphere.
 Environment blur(const Environment& environment) {
     const std::vector<EnvironmentCluster> clusters = clusterEnvironment(environment, 2048);
     Environment blurred{environment.name, kBlurredWidth, kBlurredHeight, {}};
     blurred.radiance.resize(std::size_t(kBlurredWidth) * kBlurredHeight);
     const double sharpness = 1 / (kBlur * kBlur);
-    const double whole = 2 * std::numbers::pi / sharpness * -std::expm1(-2 * sharpness);  // integral of the lobe
+    const double whole =
+        2 * std::numbers::pi / sharpness * -std::expm1(-2 * sharpness);  // integral of the lobe
     parallelFor(kBlurredHeight, [&](std::size_t y) {
         for (int x = 0; x < kBlurredWidth; ++x) {
             const glm::dvec3 towards =
@@ -62,7 +64,8 @@ BackgroundPainter::BackgroundPainter(const Environment& environment, Background 
     }
 }
 
-void BackgroundPainter::paint(Picture& picture, const Camera& camera, const EnvironmentSettings& settings) const {
+void BackgroundPainter::paint(Picture& picture, const Camera& camera,
+                              const EnvironmentSettings& settings) const {
     const Environment* shown = sharp_ ? sharp_ : blurred_.radiance.empty() ? nullptr : &blurred_;
     if (!shown || !settings.enabled || picture.channels != 4) return;
     const glm::dvec2 half = halfExtents(camera, {picture.width, picture.height});
@@ -75,8 +78,10 @@ void BackgroundPainter::paint(Picture& picture, const Camera& camera, const Envi
             float* pixel = &picture.values[(y * picture.width + std::size_t(x)) * 4];
             const float open = 1 - pixel[3];
             if (!(open > 0)) continue;
-            const double sx = 2 * (x + 0.5) / picture.width - 1, sy = 1 - 2 * (double(y) + 0.5) / picture.height;
-            const glm::dvec3 ray = camera.orthographic ? forward : glm::normalize(forward + sx * right + sy * up);
+            const double sx = 2 * (x + 0.5) / picture.width - 1,
+                         sy = 1 - 2 * (double(y) + 0.5) / picture.height;
+            const glm::dvec3 ray =
+                camera.orthographic ? forward : glm::normalize(forward + sx * right + sy * up);
             const glm::vec3 radiance = lookUp(*shown, rotateAboutY(ray, -settings.rotation));
             for (int c = 0; c < 3; ++c) pixel[c] += open * intensity * radiance[c];
         }

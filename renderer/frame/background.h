@@ -18,8 +18,8 @@ class BackgroundPainter {
     // Uses the environment, not a copy, unless it is blurred.
     BackgroundPainter(const Environment& environment, Background background);
 
-    // Adds to each pixel of `picture` (RGBA, colours times coverage) the radiance that the camera sees past what
-    // covers it: rgb += (1 - a) L. Alpha stays the coverage.
+    // Adds to each pixel of `picture` (RGBA, colours times coverage) the radiance that the camera sees past
+    // what covers it: rgb += (1 - a) L. Alpha stays the coverage.
     void paint(Picture& picture, const Camera& camera, const EnvironmentSettings& settings) const;
 
   private:

@@ -8,8 +8,8 @@
 
 namespace cutis {
 
-// Half extents of the picture at unit depth (perspective) or in metres (orthographic). The picture's own aspect
-// wins over the camera's: what the camera frames vertically stays.
+// Half extents of the picture at unit depth (perspective) or in metres (orthographic). The picture's own
+// aspect wins over the camera's: what the camera frames vertically stays.
 glm::dvec2 halfExtents(const Camera& camera, const glm::ivec2& pixels);
 
 // Projection and rays of `camera` for a picture of that many pixels, relative to `origin`. The clipping planes are

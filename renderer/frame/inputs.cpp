@@ -127,7 +127,8 @@ InputHashes hashInputs(const FrameContext& frame) {
     set(Input::environmentPower, ContentHash().add(environment.intensity).value());
     set(Input::camera, hashCamera(frame.input->camera));
     set(Input::pictureSize, ContentHash().add(settings.width, settings.height).value());
-    set(Input::aovs, ContentHash().add(settings.aovs).add(settings.inspect.what != Inspect::What::none).value());
+    set(Input::aovs,
+        ContentHash().add(settings.aovs).add(settings.inspect.what != Inspect::What::none).value());
     return hashes;
 }
 

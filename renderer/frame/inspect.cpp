@@ -15,10 +15,13 @@ using Texel = glm::vec4;
 class Texels {
   public:
     Texels(const Inspect& inspect, const InspectReadback& readback)
-        : bytes_(readback.values.bytes()), side_(readback.side), shares_(inspect.what == Inspect::What::shadow) {}
+        : bytes_(readback.values.bytes()),
+          side_(readback.side),
+          shares_(inspect.what == Inspect::What::shadow) {}
 
     Texel at(int x, int y) const {
-        const std::size_t index = std::size_t(std::clamp(y, 0, side_ - 1)) * side_ + std::clamp(x, 0, side_ - 1);
+        const std::size_t index =
+            std::size_t(std::clamp(y, 0, side_ - 1)) * side_ + std::clamp(x, 0, side_ - 1);
         if (shares_) return Texel(float(std::to_integer<int>(bytes_[index])) / 255.0f);
         Texel texel;
         std::memcpy(&texel, &bytes_[index * sizeof texel], sizeof texel);
@@ -67,7 +70,8 @@ InspectReadback recordInspect(const FrameContext& frame) {
         case Inspect::What::level: {
             if (index >= skin.levels.shifts.size()) return {};
             const std::uint32_t shift = skin.levels.shifts[index];
-            const int side = static_cast<int>((std::uint32_t(frame.surface.size) + (1u << shift) - 1) >> shift);
+            const int side =
+                static_cast<int>((std::uint32_t(frame.surface.size) + (1u << shift) - 1) >> shift);
             return {frame.commands->readback(skin.levels.view(index)), side, static_cast<int>(shift)};
         }
         case Inspect::What::stretch:
@@ -81,8 +85,7 @@ InspectReadback recordInspect(const FrameContext& frame) {
             int last = -1;
             for (const LightSample& sample : frame.lighting.samples) {
                 if (sample.light == inspect.index)
-                    return {frame.commands->readback(skin.visibility.layer(layer)),
-                            frame.surface.size, 0};
+                    return {frame.commands->readback(skin.visibility.layer(layer)), frame.surface.size, 0};
                 if (last != sample.light) ++layer;
                 last = sample.light;
             }

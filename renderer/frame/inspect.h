@@ -13,8 +13,8 @@ struct InspectReadback {
 };
 InspectReadback recordInspect(const FrameContext& frame);
 
-// The values at the atlas texels that pixels show (`atlas`: x, y in texels, 1 where there is skin): three channels,
-// see Inspect; 0 where there is none.
+// The values at the atlas texels that pixels show (`atlas`: x, y in texels, 1 where there is skin): three
+// channels, see Inspect; 0 where there is none.
 Picture lookUpInspected(const Inspect& inspect, const InspectReadback& readback, const Picture& atlas);
 
 }  // namespace cutis

@@ -50,7 +50,8 @@ void makeTarget(FrameContext& frame) {
     int layers = 0;
     for (int i = 0; i < kAovCount; ++i) {
         const auto& wanted = frame.settings->aovs;
-        const bool named = i != kAovAtlas && std::find(wanted.begin(), wanted.end(), kAovNames[i]) != wanted.end();
+        const bool named =
+            i != kAovAtlas && std::find(wanted.begin(), wanted.end(), kAovNames[i]) != wanted.end();
         const bool inspected = i == kAovAtlas && frame.settings->inspect.what != Inspect::What::none;
         if (named || inspected) frame.target.aovLayer[i] = layers++;
     }
@@ -168,7 +169,8 @@ void environmentVisibilityRow(FrameContext& frame) {
     const EnvironmentSettings& settings = frame.input->rig.environment;
     std::vector<glm::dvec3> directions;
     std::vector<glm::vec4> parts;  // of the sky
-    for (const VisibilityDirection& part : visibilityDirections(*frame.lighting.environment, shared::VISIBILITY_DIRECTIONS, frame.settings->seed)) {
+    for (const VisibilityDirection& part : visibilityDirections(
+             *frame.lighting.environment, shared::VISIBILITY_DIRECTIONS, frame.settings->seed)) {
         directions.push_back(rotateAboutY(part.direction, settings.rotation));
         parts.emplace_back(directions.back(), part.solidAngle);
     }

@@ -26,9 +26,10 @@ inline constexpr const char* kMergeNames[] = {"min", "opposite"};
 enum class Chain { exact, published };
 inline constexpr const char* kChainNames[] = {"exact", "published"};
 
-// What the atlas holds, shown on the surface as the AOV kInspectedName: for looking into the passes. level: the
-// irradiance blurred to the variance of Gaussian `index`; stretch: how many times longer a texel is one way than
-// across; texelDensity: texels per millimetre; shadow: the share of light `index` of the rig that arrives.
+// What the atlas holds, shown on the surface as the AOV kInspectedName: for looking into the passes. level:
+// the irradiance blurred to the variance of Gaussian `index`; stretch: how many times longer a texel is one
+// way than across; texelDensity: texels per millimetre; shadow: the share of light `index` of the rig that
+// arrives.
 struct Inspect {
     enum class What { none, level, stretch, texelDensity, shadow };
     What what = What::none;
@@ -49,7 +50,7 @@ struct RenderSettings {
     double detail = 1;  // atlas and light maps are as fine as a picture of so many times the pixels along each side asks
     int repeats = 1;    // all of the frame is drawn so often, for its times alone
     bool prune = true;  // false: run also what could be left out, on neutral inputs
-    std::uint32_t seed = 0;  // other samples of area lights and of the sky; means over seeds converge
+    std::uint32_t seed = 0;         // other samples of area lights and of the sky; means over seeds converge
     std::vector<std::string> aovs;  // of kAovNames
     Inspect inspect = {};
 };

@@ -95,7 +95,8 @@ void takePictures(const FrameContext& frame, const Readbacks& readbacks, SkinFig
             result.stats.nonfinite += countNonfinite(layer);
             Picture values = toPicture(layer, width, height, aovChannels(i));
             if (i == kAovAtlas) {
-                result.aovs[kInspectedName] = lookUpInspected(frame.settings->inspect, readbacks.inspect, values);
+                result.aovs[kInspectedName] =
+                    lookUpInspected(frame.settings->inspect, readbacks.inspect, values);
             } else {
                 result.aovs[kAovNames[i]] = std::move(values);
             }

@@ -24,8 +24,8 @@ void addShaders(std::span<const EmbeddedShader> shaders);
 // Names of all modules that are embedded.
 std::vector<std::string> embeddedShaderNames();
 
-// While shaders are being written: findShader gives these in place of the embedded ones, to devices opened from
-// now on. An empty map brings those back. From any thread.
+// While shaders are being written: findShader gives these in place of the embedded ones, to devices opened
+// from now on. An empty map brings those back. From any thread.
 using ShaderModules = std::map<std::string, std::vector<std::uint32_t>, std::less<>>;
 void replaceShaders(ShaderModules modules);
 

@@ -9,7 +9,8 @@
 
 namespace cutis {
 
-// In the order of kAovNames and of AOV_ in shade.comp. The last has no name: where in the atlas a pixel's skin is.
+// In the order of kAovNames and of AOV_ in shade.comp. The last has no name: where in the atlas a pixel's
+// skin is.
 inline constexpr int kAovCount = 10;
 inline constexpr int kAovDiffuse = 0, kAovSpecular = 1, kAovAtlas = 9;
 

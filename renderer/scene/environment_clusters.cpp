@@ -203,7 +203,8 @@ std::vector<glm::dvec3> warpedLattice(const EnvironmentCells& grid, int n, std::
 
 }  // namespace
 
-std::vector<VisibilityDirection> visibilityDirections(const Environment& environment, int n, std::uint32_t seed) {
+std::vector<VisibilityDirection> visibilityDirections(const Environment& environment, int n,
+                                                      std::uint32_t seed) {
     constexpr double kEvenShare = 1.0 / 3;
     const auto luminance = [&](std::size_t texel) {
         const glm::vec3& radiance = environment.radiance[texel];

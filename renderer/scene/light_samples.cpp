@@ -153,7 +153,8 @@ std::vector<glm::dvec3> turnedBallPoints(int n, std::uint32_t seed) {
     return points;
 }
 
-void appendArea(const Light& light, const LightSample& whole, std::uint32_t seed, std::vector<LightSample>& samples) {
+void appendArea(const Light& light, const LightSample& whole, std::uint32_t seed,
+                std::vector<LightSample>& samples) {
     const int n = sampleCount(light);
     const RectAxes axes = rectAxes(light.direction);
     const auto append = [&](const glm::dvec3& offset, double area) {

@@ -29,7 +29,8 @@ struct SamplingOptions {
 //  - rect: cell centres of a grid, or a point-symmetric lattice where no grid has nearly square cells. A
 //  sample of a
 //    light of radiance L, area A and n samples has L·A/n candela along its normal.
-// A seed other than 0 shifts grids and lattices as on a torus, and turns balls. Deterministic. Throws Error when there are more than options.limit.
+// A seed other than 0 shifts grids and lattices as on a torus, and turns balls. Deterministic. Throws Error
+// when there are more than options.limit.
 std::vector<LightSample> sampleLights(const Rig& rig, const SamplingOptions& options = {});
 
 // How many samples sampleLights makes of a light: `samples` for one with an area, where 0 stands for 6

@@ -128,7 +128,8 @@ class Reader {
     }
     template <class Number>  // double or std::optional<double>
     void number(const Field& field, Number Object::*member) {
-        if (const Json* json = find(field.key)) value_.*member = readNumber(*json, field, source_, at(field.key));
+        if (const Json* json = find(field.key))
+            value_.*member = readNumber(*json, field, source_, at(field.key));
     }
     void integer(const Field& field, int Object::*member) {
         const Json* json = find(field.key);
@@ -160,7 +161,8 @@ class Reader {
             value_.*member = static_cast<LightType>(i);
             return;
         }
-        refuse(source_, at(field.key), "is " + shown(*json) + ", it must be directional, point, spot or rect");
+        refuse(source_, at(field.key),
+               "is " + shown(*json) + ", it must be directional, point, spot or rect");
     }
     void version(const Field& field) {
         const Json* json = find(field.key);
@@ -286,7 +288,9 @@ class Writer {
     void where(const Field& field, glm::dvec3 Object::*member) {
         if (!value_.place) write(field.key, value_.*member);
     }
-    void type(const Field& field, LightType Object::*member) { json[field.key] = lightTypeName(value_.*member); }
+    void type(const Field& field, LightType Object::*member) {
+        json[field.key] = lightTypeName(value_.*member);
+    }
     void version(const Field& field) { json[field.key] = kVersion; }
     void placement(const Field& field, std::optional<Placement> Object::*member) {
         if (!(value_.*member)) return;
@@ -339,25 +343,45 @@ struct Lister {
     std::vector<Field> list;
 
     template <class Member>
-    void text(const Field& field, Member) { list.push_back(field); }
+    void text(const Field& field, Member) {
+        list.push_back(field);
+    }
     template <class Member>
-    void flag(const Field& field, Member) { list.push_back(field); }
+    void flag(const Field& field, Member) {
+        list.push_back(field);
+    }
     template <class Member>
-    void number(const Field& field, Member) { list.push_back(field); }
+    void number(const Field& field, Member) {
+        list.push_back(field);
+    }
     template <class Member>
-    void integer(const Field& field, Member) { list.push_back(field); }
+    void integer(const Field& field, Member) {
+        list.push_back(field);
+    }
     template <class Member>
-    void vector(const Field& field, Member) { list.push_back(field); }
+    void vector(const Field& field, Member) {
+        list.push_back(field);
+    }
     template <class Member>
-    void where(const Field& field, Member) { list.push_back(field); }
+    void where(const Field& field, Member) {
+        list.push_back(field);
+    }
     template <class Member>
-    void type(const Field& field, Member) { list.push_back(field); }
+    void type(const Field& field, Member) {
+        list.push_back(field);
+    }
     template <class Member>
-    void placement(const Field& field, Member) { list.push_back(field); }
+    void placement(const Field& field, Member) {
+        list.push_back(field);
+    }
     template <class Member>
-    void environment(const Field& field, Member) { list.push_back(field); }
+    void environment(const Field& field, Member) {
+        list.push_back(field);
+    }
     template <class Member>
-    void lights(const Field& field, Member) { list.push_back(field); }
+    void lights(const Field& field, Member) {
+        list.push_back(field);
+    }
     void version(const Field& field) { list.push_back(field); }
 };
 
@@ -401,7 +425,10 @@ std::vector<FieldGroup> rigFields() {
     describeLight(light);
     describePlacement(place);
     describeEnvironment(environment);
-    return {{"A rig", rig.list}, {"A light", light.list}, {"A place", place.list}, {"The environment", environment.list}};
+    return {{"A rig", rig.list},
+            {"A light", light.list},
+            {"A place", place.list},
+            {"The environment", environment.list}};
 }
 
 const char* lightTypeName(LightType type) {

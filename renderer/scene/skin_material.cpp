@@ -76,7 +76,8 @@ nlohmann::json skinMaterialJson(const SkinMaterial& skin) {
         json[fields::kProfile.key] = nlohmann::json::array();
         for (const skin::Gaussian& g : skin.profile.gaussians) {
             json[fields::kProfile.key].push_back(
-                {{fields::kVariance.key, g.variance}, {fields::kWeight.key, {g.weight.r, g.weight.g, g.weight.b}}});
+                {{fields::kVariance.key, g.variance},
+                 {fields::kWeight.key, {g.weight.r, g.weight.g, g.weight.b}}});
         }
     }
     if (skin.scale != defaults.scale) json[fields::kScale.key] = skin.scale;

@@ -56,10 +56,29 @@ TEST(Help, WinsOverOtherMistakes) {
 }
 
 TEST(Help, RenderHasEveryOption) {
-    const std::set<std::string> expected = {
-        "--rig",  "--light", "--env",       "--env-intensity", "--env-rotation",    "--camera",    "--size",
-        "--skin", "--merge", "--tolerance", "--chain", "--taps", "--irradiance-size", "--gaussians", "--device",
-        "--background", "--aov",  "--stats", "--seed",      "--exposure",      "--no-prune",        "--output",    "--help"};
+    const std::set<std::string> expected = {"--rig",
+                                            "--light",
+                                            "--env",
+                                            "--env-intensity",
+                                            "--env-rotation",
+                                            "--camera",
+                                            "--size",
+                                            "--skin",
+                                            "--merge",
+                                            "--tolerance",
+                                            "--chain",
+                                            "--taps",
+                                            "--irradiance-size",
+                                            "--gaussians",
+                                            "--device",
+                                            "--background",
+                                            "--aov",
+                                            "--stats",
+                                            "--seed",
+                                            "--exposure",
+                                            "--no-prune",
+                                            "--output",
+                                            "--help"};
     EXPECT_EQ(optionsIn(runCutis({"render", "--help"}).out), expected);
 }
 

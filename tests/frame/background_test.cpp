@@ -41,8 +41,8 @@ TEST(Background, LiesWhereTheCameraLooks) {
     // Turned by 180 degrees the dark half lies there.
     painter.paint(turned, lookingAlongMinusZ(), {.file = "x", .intensity = 3, .rotation = 180});
     for (const float value : turned.values) EXPECT_EQ(value, 0);
-    // A quarter counter-clockwise seen from above brings what lay at +X, the border of red and dark, to -Z: red was
-    // between -Z and +X, and lies now on the left.
+    // A quarter counter-clockwise seen from above brings what lay at +X, the border of red and dark, to -Z:
+    // red was between -Z and +X, and lies now on the left.
     Picture quarter = emptyPicture(0);
     painter.paint(quarter, lookingAlongMinusZ(), {.file = "x", .rotation = 90});
     EXPECT_NEAR(quarter.values[0], 1, 1e-5);

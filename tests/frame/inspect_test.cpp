@@ -103,7 +103,8 @@ TEST_F(InspectTest, SeedsChangeSoftShadowsAlone) {
     };
     const std::vector<float> first = pictureOf(0), other = pictureOf(1);
     double difference = 0, whole = 0;
-    for (std::size_t i = 0; i < first.size(); ++i) difference += std::abs(first[i] - other[i]), whole += first[i];
+    for (std::size_t i = 0; i < first.size(); ++i)
+        difference += std::abs(first[i] - other[i]), whole += first[i];
     EXPECT_GT(difference / whole, 1e-5);
     EXPECT_LT(difference / whole, 0.1);
     EXPECT_EQ(pictureOf(0), first);

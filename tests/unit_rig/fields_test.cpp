@@ -24,8 +24,12 @@ void expectDescribed(const std::vector<FieldGroup>& groups, const std::string& p
                 << field.key;
 }
 
-TEST(Fields, RigPageHasEveryKey) { expectDescribed(rigFields(), pageAt(CUTIS_RIG_PAGE)); }
-TEST(Fields, ScenePageHasEveryKey) { expectDescribed(skinFields(), pageAt(CUTIS_SCENE_PAGE)); }
+TEST(Fields, RigPageHasEveryKey) {
+    expectDescribed(rigFields(), pageAt(CUTIS_RIG_PAGE));
+}
+TEST(Fields, ScenePageHasEveryKey) {
+    expectDescribed(skinFields(), pageAt(CUTIS_SCENE_PAGE));
+}
 
 TEST(Fields, EachSaysWhatItIs) {
     std::vector<FieldGroup> groups = rigFields();

@@ -38,8 +38,8 @@ TEST(EnvironmentSun, AnEvenSkyHasNone) {
     EXPECT_FALSE(findSun(Environment{"sky", 64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0))}));
 }
 
-// The sun is 10 degrees wide: its light, as if from one direction, differs from the exact one by that width squared
-// at most, some 0.3 %.
+// The sun is 10 degrees wide: its light, as if from one direction, differs from the exact one by that width
+// squared at most, some 0.3 %.
 TEST(EnvironmentSun, LightIsTheSameInAll) {
     const Environment whole = sunnySky({2000, 1500, 1000});
     const EnvironmentSettings settings{.file = "sky.exr", .enabled = true, .intensity = 0.7, .rotation = 40};
@@ -49,15 +49,17 @@ TEST(EnvironmentSun, LightIsTheSameInAll) {
     rig.lights = {sun};
     Environment rest = whole;
     removeSun(rest);
-    for (const glm::dvec3& n :
-         {glm::dvec3(0, 1, 0), glm::normalize(glm::dvec3(1, 0.2, -1)), glm::normalize(glm::dvec3(0.3, 0.5, 1))}) {
+    for (const glm::dvec3& n : {glm::dvec3(0, 1, 0), glm::normalize(glm::dvec3(1, 0.2, -1)),
+                                glm::normalize(glm::dvec3(0.3, 0.5, 1))}) {
         const glm::dvec3 expected = irradianceOf(whole, n, settings.rotation) * settings.intensity;
         glm::dvec3 sum = irradianceOf(rest, n, settings.rotation) * settings.intensity;
         for (const LightSample& sample : sampleLights(rig)) sum += irradianceFrom(sample, glm::dvec3(0), n);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], expected[c], 3e-3 * expected[c]) << c;
-        EXPECT_LT(irradianceOf(rest, n, settings.rotation).x, 0.5 * irradianceOf(whole, glm::dvec3(0, 1, 0), 0).x);
+        EXPECT_LT(irradianceOf(rest, n, settings.rotation).x,
+                  0.5 * irradianceOf(whole, glm::dvec3(0, 1, 0), 0).x);
     }
-    for (const glm::vec3& radiance : rest.radiance) EXPECT_GE(std::min({radiance.x, radiance.y, radiance.z}), 0.0f);
+    for (const glm::vec3& radiance : rest.radiance)
+        EXPECT_GE(std::min({radiance.x, radiance.y, radiance.z}), 0.0f);
 }
 
 }  // namespace

@@ -48,10 +48,13 @@ TEST(LookEdits, QualityAndBackgroundAreEditsButNoPartOfTheRig) {
 }
 
 TEST(LookEdits, AToleranceTakesTheCheapestThatWasMeasured) {
-    const MeasuredFront front{.device = "paper", .width = 100, .height = 100,
-                              .settings = {{{.name = "coarse", .irradianceSize = 256, .areaSamples = 2}, 0.1, 1},
-                                           {{.name = "default"}, 0.02, 5},
-                                           {{.name = "fine", .irradianceSize = 4096}, 0.01, 9}}};
+    const MeasuredFront front{
+        .device = "paper",
+        .width = 100,
+        .height = 100,
+        .settings = {{{.name = "coarse", .irradianceSize = 256, .areaSamples = 2}, 0.1, 1},
+                     {{.name = "default"}, 0.02, 5},
+                     {{.name = "fine", .irradianceSize = 4096}, 0.01, 9}}};
     Light area;
     area.type = LightType::rect;
     area.size = {1, 1};
@@ -89,7 +92,8 @@ TEST(LookEdits, AProfileNeverGivesBackMoreThanItGets) {
     EXPECT_FALSE(document.skin[0]) << "not skin";
     for (skin::Gaussian& gaussian : profile.gaussians) gaussian.weight = glm::dvec3(0);
     setProfile(document, 1, profile);
-    EXPECT_NEAR(document.skin[1]->profile.gaussians[0].weight.x, 0.25, 1e-12) << "skin without light is refused";
+    EXPECT_NEAR(document.skin[1]->profile.gaussians[0].weight.x, 0.25, 1e-12)
+        << "skin without light is refused";
 }
 
 TEST(LookEdits, NormalisedProfilesSumToOne) {

@@ -19,8 +19,8 @@ TEST(Refinement, PixelsComeFirst) {
         refinement.add(*pictureOf(2));
     }
     EXPECT_EQ(refinement.next(), Refinement::Step::shadows);
-    EXPECT_NEAR(refinement.mean().values[0], (1 + 2.0 * (Refinement::kPixelPictures - 1)) / Refinement::kPixelPictures,
-                1e-6);
+    EXPECT_NEAR(refinement.mean().values[0],
+                (1 + 2.0 * (Refinement::kPixelPictures - 1)) / Refinement::kPixelPictures, 1e-6);
 }
 
 TEST(Refinement, HardLightIsDoneWithThem) {
@@ -31,7 +31,8 @@ TEST(Refinement, HardLightIsDoneWithThem) {
     EXPECT_EQ(refinement.mean().values[0], 1);
 }
 
-// Each set of samples counts as much as the first: 1 and 4 sets of 2 are 9/5, whatever the pixels' pictures are.
+// Each set of samples counts as much as the first: 1 and 4 sets of 2 are 9/5, whatever the pixels' pictures
+// are.
 TEST(Refinement, ShadowsAreTheMeanOverAllSets) {
     Refinement refinement(pictureOf(1), true);
     for (int i = 1; i < Refinement::kPixelPictures; ++i) refinement.add(*pictureOf(1));

@@ -163,7 +163,8 @@ TEST(RenderWorker, ARestartOpensEverythingAnew) {
     RenderWorker worker(
         [&] {
             ++opened;
-            return both([](const RenderInput&, const RenderSettings& settings) { return greyPicture(settings); });
+            return both(
+                [](const RenderInput&, const RenderSettings& settings) { return greyPicture(settings); });
         },
         [] {});
     worker.show(1, stateOf(0));

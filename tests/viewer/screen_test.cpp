@@ -110,7 +110,8 @@ TEST(Screen, TheDefaultSceneIsLitSavedAndReproduced) {
     EXPECT_NE(run.out.find("title: cutis - default"), std::string::npos) << run.out;
     EXPECT_EQ(run.err, "") << "errors and validation messages go there";
 
-    // Two thirds of a stop brighter, solo and no longer solo, three edits undone: one of the two steps is left.
+    // Two thirds of a stop brighter, solo and no longer solo, three edits undone: one of the two steps is
+    // left.
     const Rig shipped = loadRig(std::filesystem::path(CUTIS_DATA_DIR) / "default" / "default.rig.json");
     const Rig saved = loadRig(folder / "own.rig.json");
     ASSERT_EQ(saved.lights.size(), shipped.lights.size());
@@ -122,8 +123,8 @@ TEST(Screen, TheDefaultSceneIsLitSavedAndReproduced) {
 
     const Picture shown = readPicture(folder / "picture.exr");
     const std::string size = std::to_string(shown.width) + 'x' + std::to_string(shown.height);
-    expectSuccess(runCutis({"render", "default", "--rig", folder / "own.rig.json", "--device", "cpu", "--size", size,
-                            "-o", folder / "command.exr"},
+    expectSuccess(runCutis({"render", "default", "--rig", folder / "own.rig.json", "--device", "cpu",
+                            "--size", size, "-o", folder / "command.exr"},
                            {{"CUTIS_DATA_DIR", CUTIS_DATA_DIR}}));
     const Picture expected = readPicture(folder / "command.exr");
     ASSERT_EQ(shown.values.size(), expected.values.size());
@@ -132,7 +133,8 @@ TEST(Screen, TheDefaultSceneIsLitSavedAndReproduced) {
     const Picture screen = readPicture(folder / "screen.png");
     ASSERT_EQ(screen.width, 820);
     const int left = (screen.width - shown.width) / 2;
-    EXPECT_GT(contrast(screen, {left, 150, screen.width - left, 300}), 0.03) << "no picture between the panels";
+    EXPECT_GT(contrast(screen, {left, 150, screen.width - left, 300}), 0.03)
+        << "no picture between the panels";
 }
 
 }  // namespace

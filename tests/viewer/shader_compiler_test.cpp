@@ -16,7 +16,8 @@ constexpr const char* kShader =
 TEST(ShaderCompiler, CompilesWithFeaturesAndIncludes) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "lib");
-    writeText(folder / "lib/value.glsl", "#ifdef ONE\nfloat value() { return 1.0; }\n#else\nfloat value() { return 2.0; }\n#endif\n");
+    writeText(folder / "lib/value.glsl",
+              "#ifdef ONE\nfloat value() { return 1.0; }\n#else\nfloat value() { return 2.0; }\n#endif\n");
     writeText(folder / "fill.comp", kShader);
     const std::string names[] = {"fill.comp", "fill.comp+ONE"};
     const app::CompiledShaders compiled = app::compileShaders(folder.path(), names);

@@ -101,8 +101,7 @@ void drawEnvironmentPanel(Session& session) {
             hint("Adds a directional light that gives what the sun gave; the environment shines without it");
         }
         if (ImGui::Button("Remove", {-1, 0}))
-            session.edits.apply("No environment",
-                                [](Document& document) { document.rig.environment = {}; });
+            session.edits.apply("No environment", [](Document& document) { document.rig.environment = {}; });
     }
     heading("Library");
     if (ImGui::Button("Another file ...", {-1, 0})) showDialog(session, Dialog::open);

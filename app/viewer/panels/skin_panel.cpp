@@ -99,7 +99,8 @@ void drawProfile(Session& session, std::size_t index, const std::string& name) {
     if (ImGui::Button("Normalise", {width, 0})) profile = normalized(profile), edit = "Normalise the profile";
     hint("Sorts by variance and scales weights so that each channel sums to 1");
     ImGui::SameLine(0, gap);
-    if (ImGui::Button("Three-layer", {width, 0})) profile = skin::threeLayerProfile(), edit = "Three-layer skin";
+    if (ImGui::Button("Three-layer", {width, 0}))
+        profile = skin::threeLayerProfile(), edit = "Three-layer skin";
     hint("The six Gaussians of three-layer skin, GPU Gems 3, ch. 14");
     if (profile != before)
         session.edits.apply(edit, [&](Document& document) { setProfile(document, index, profile); });

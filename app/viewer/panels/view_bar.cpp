@@ -33,7 +33,8 @@ void drawLevel(Session& session) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 4);
     int number = index + 1;
-    if (ImGui::SliderInt("##level", &number, 1, levels, "%d", ImGuiSliderFlags_AlwaysClamp)) index = number - 1;
+    if (ImGui::SliderInt("##level", &number, 1, levels, "%d", ImGuiSliderFlags_AlwaysClamp))
+        index = number - 1;
     hint("Which level, from the narrowest");
 }
 

@@ -51,10 +51,9 @@ bool fieldPartRow(const Field& field, const char* text, double& value) {
     double shown = value * field.shownPerUnit;
     const std::string format = formatOf(field, nullptr);
     const bool changed =
-        field.step > 0
-            ? dragRow(text, shown, static_cast<float>(field.step), field.low, field.high, format.c_str(),
-                      field.logarithmic)
-            : sliderRow(text, shown, field.low, field.high, format.c_str(), field.logarithmic);
+        field.step > 0 ? dragRow(text, shown, static_cast<float>(field.step), field.low, field.high,
+                                 format.c_str(), field.logarithmic)
+                       : sliderRow(text, shown, field.low, field.high, format.c_str(), field.logarithmic);
     fieldHint(field);
     if (changed) value = shown / field.shownPerUnit;
     return changed;

@@ -11,8 +11,8 @@ namespace cutis::app {
 
 // Puts the label down; the next control fills the rest of the row.
 void label(const char* text);
-// A row of the table of fields (renderer/scene/fields.h): its name, its control over its range, its unit, its help
-// as a tooltip. Returns true when the user changed the value. `unit` in place of the field's own.
+// A row of the table of fields (renderer/scene/fields.h): its name, its control over its range, its unit, its
+// help as a tooltip. Returns true when the user changed the value. `unit` in place of the field's own.
 bool fieldRow(const Field& field, double& value, const char* unit = nullptr);
 bool fieldRow(const Field& field, int& value, const char* zero = "automatic");  // `zero`: what 0 is called
 bool fieldRow(const Field& field, bool& value);
