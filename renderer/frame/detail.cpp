@@ -16,12 +16,13 @@ namespace {
 constexpr std::uint64_t kLightMapBytes = std::uint64_t(2) << 30;
 constexpr int kLargestLightMap = 4096, kFinestUsefulLightMap = 1024, kSmallestLightMap = 128;
 
-// Texels a little finer than the pixels where the character stands; never finer than the narrowest blur of
-// skin. A character that the picture does not show needs hardly any.
+// Texels a little finer than the pixels where the character stands; never finer than the narrowest blur of skin. In
+// small pictures the rims of ears and the edges of lids ask for more: where texels are wider, light of one side
+// reaches the other (docs/measure.md). A character that the picture does not show needs hardly any.
 double wantedMmPerTexel(double mmPerPixel, bool inView) {
-    constexpr double kFinest = 0.08, kOutOfView = 10;
+    constexpr double kFinest = 0.08, kRims = 1, kOutOfView = 10;
     if (!inView) return kOutOfView;
-    return std::max(kFinest, 0.9 * mmPerPixel);
+    return std::clamp(0.9 * mmPerPixel, kFinest, std::max(kRims, 0.6 * mmPerPixel));
 }
 
 // Of each character's skin; the finest where it has several.

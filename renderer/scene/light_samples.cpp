@@ -241,7 +241,11 @@ glm::dvec3 irradianceFrom(const LightSample& sample, const glm::dvec3& p, const 
     const glm::dvec3 l = toLight / distance;
     const double cosEmitted = -glm::dot(sample.direction, l);
     double factor = std::max(0.0, glm::dot(n, l)) / squared;
-    if (sample.cosineEmission) factor *= std::max(0.0, cosEmitted);
+    if (sample.cosineEmission) {
+        const double across = sample.radius / distance;
+        const double wider = 4 / kPi * across * across * std::max(3 * cosEmitted * cosEmitted - 2, 0.0);
+        factor *= std::max(0.0, cosEmitted) / (1 + wider);
+    }
     if (sample.cosOuter > -1) {
         // Not KHR_lights_punctual's 0.001: it would dim cones of up to 2.5 degrees.
         const double width = std::max(1e-6, sample.cosInner - sample.cosOuter);

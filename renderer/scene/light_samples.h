@@ -40,7 +40,10 @@ int sampleCount(const Light& light);
 // Unoccluded irradiance (RGB, in the unit of the light) that one sample gives a surface at p with unit normal
 // n: I · attenuation · cosθ_emitted · cosθ_received / r². The attenuation of cone and range is that which
 // KHR_lights_punctual recommends: saturate((cosθ - cosOuter) / max(0.001, cosInner - cosOuter))² and
-// saturate(1 - (r/range)⁴).
+// saturate(1 - (r/range)⁴). A sample of a rect light stands for a piece of area A' = 4 radius², not for a point: r² becomes
+// r² + (3 cos²θ_emitted - 2)·A'/π where that is more, the mean over the piece to second order, and on the axis what a disc of
+// that area gives exactly. As points, the centres of 3 × 3 cells of a 0.9 × 1.2 m light give 0.7 % too much at 2 m, and one
+// point 7 %; so they give 0.1 and 0.8 %.
 glm::dvec3 irradianceFrom(const LightSample& sample, const glm::dvec3& p, const glm::dvec3& n);
 
 // Unit axes of a rect light that shines along `direction`: x along its width, which is horizontal, and y

@@ -23,9 +23,14 @@ Incident incidentLight(LightSampleData light, vec3 p) {
     float len = length(unit);
     incident.direction = len > 0.0 ? unit / len : -light.direction;
     incident.distance = max(len, 1e-18) * scale;
-    vec3 e = light.intensity / incident.distance / incident.distance;
     float cosine = -dot(incident.direction, light.direction);
-    if ((light.flags & LIGHT_COSINE) != 0u) e *= max(cosine, 0.0);
+    vec3 e = light.intensity / incident.distance;
+    if ((light.flags & LIGHT_COSINE) != 0u) {
+        // A piece of a rect light, 2 radius wide: irradianceFrom in scene/light_samples.h.
+        float across = light.radius / incident.distance;
+        e *= max(cosine, 0.0) / (1.0 + 4.0 / 3.14159265358979 * across * across * max(3.0 * cosine * cosine - 2.0, 0.0));
+    }
+    e /= incident.distance;
     if (light.cosOuter > -1.0) {
         float t = clamp((cosine - light.cosOuter) / max(light.cosInner - light.cosOuter, 1e-6), 0.0, 1.0);
         e *= t * t;  // KHR_lights_punctual's recommended falloff
