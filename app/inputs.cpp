@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "app/frame_files.h"
 #include "renderer/core/error.h"
 #include "renderer/core/suggest.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/environment.h"
 #include "renderer/scene/environment_sun.h"
 #include "renderer/scene/gltf.h"
+#include "renderer/scene/pose.h"
 #include "renderer/scene/presets.h"
 #include "renderer/scene/rig.h"
 
@@ -54,6 +56,31 @@ void selectLights(Rig& rig, const std::vector<std::string>& names) {
         return std::find(names.begin(), names.end(), light.name) == names.end();
     });
     for (Light& light : rig.lights) light.enabled = true;
+}
+
+bool takesLightsOfScene(const Request& request, const Scene& scene) {
+    return request.rig ? request.rig == "scene" : !scene.lights.empty();
+}
+
+bool takesCameraOfScene(const Request& request, const Scene& scene) {
+    const std::string& camera = request.camera;
+    if (camera.empty()) return !scene.cameras.empty();
+    return camera != "auto" && !camera.starts_with("auto:") && !camera.starts_with("orbit:");
+}
+
+double aspectOf(const Request& request) {
+    return double(request.settings.width) / request.settings.height;
+}
+
+// The animation that is asked for; without a name the first, where a time is.
+int chooseAnimation(const Request& request, const Scene& scene) {
+    if (request.animation) return findAnimation(scene, *request.animation);
+    if (!request.time && !request.frames) return kAtRest;
+    if (scene.animations.empty()) {
+        throw Error(request.time ? "cannot use --time" : "cannot use --frames", "the scene has no animation",
+                    scene.file.string());
+    }
+    return 0;
 }
 
 void chooseEnvironment(const Request& request, Inputs& inputs) {
@@ -114,15 +141,31 @@ Inputs loadInputs(const Request& request) {
     Inputs inputs;
     const fs::path file = sceneFile(request.operands.at(0));
     inputs.scene = loadGltf(file, {.skin = request.skin});
+    inputs.animation = chooseAnimation(request, inputs.scene);
+    if (inputs.animation != kAtRest) {
+        const double begin = request.frames ? timeOfFrame(request, request.frames->first) : request.time.value_or(0);
+        poseScene(inputs.scene, inputs.animation, begin);
+    }
     NamedRig named = chooseRig(request, inputs.scene, file);
     inputs.rig = std::move(named.rig);
     inputs.rigFile = std::move(named.file);
     selectLights(inputs.rig, request.lights);
     resolvePlacements(inputs.rig, inputs.scene);
     chooseEnvironment(request, inputs);
-    inputs.camera =
-        cameraFor(inputs.scene, request.camera, double(request.settings.width) / request.settings.height);
+    inputs.camera = cameraFor(inputs.scene, request.camera, aspectOf(request));
     return inputs;
+}
+
+void setTime(Inputs& inputs, const Request& request, double seconds) {
+    poseScene(inputs.scene, inputs.animation, seconds);
+    ++inputs.poseRevision;
+    if (takesLightsOfScene(request, inputs.scene)) {
+        Rig moved = rigFromScene(inputs.scene);
+        selectLights(moved, request.lights);
+        inputs.rig.lights = std::move(moved.lights);
+    }
+    if (takesCameraOfScene(request, inputs.scene))
+        inputs.camera = cameraFor(inputs.scene, request.camera, aspectOf(request));
 }
 
 }  // namespace cutis::app

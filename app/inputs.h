@@ -18,6 +18,8 @@ struct Inputs {
     std::filesystem::path environmentFile;
     std::optional<Environment> environment;
     Camera camera;
+    int animation = -1;              // index into Scene::animations; -1: the scene rests
+    std::uint64_t poseRevision = 0;  // how often setTime has posed the scene
 };
 
 // Loads what the request names:
@@ -25,9 +27,14 @@ struct Inputs {
 //  - the rig is --rig, else the scene's own lights if it has any, else STEM.rig.json beside the scene's
 //  STEM.gltf, else
 //    the preset three-point; --light keeps some of its lights;
+//  - the pose is that of --animation at --time or at the first of --frames, else the scene's at rest;
 //  - the environment is --env, else the rig's, whose file name is relative to the rig file.
 // Throws Error.
 Inputs loadInputs(const Request& request);
+
+// Puts scene, camera and lights into the pose of another time of the animation. Lights that were placed round a subject and
+// cameras that were framed on one stay where they were; those of the file move with their nodes. Throws Error.
+void setTime(Inputs& inputs, const Request& request, double seconds);
 
 // A rig file or a preset. Throws Error.
 struct NamedRig {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/frame_files.h"
 #include "app/usage_error.h"
 #include "renderer/core/suggest.h"
 #include "renderer/reference/reference.h"
@@ -22,6 +23,8 @@ constexpr double kMaxSeconds = 3.6e6;
 constexpr unsigned kPicture = kRender | kReference;  // the same picture in two ways: the same options
 constexpr unsigned kView = kPicture | kPlan | kCompare | kMeasure | kViewer;  // whatever shows a scene
 constexpr int kMaxRepeats = 1000;
+constexpr int kMaxFrame = 999999;
+constexpr double kMinFps = 0.001, kMaxFps = 1000;
 constexpr double kMinUiScale = 0.5, kMaxUiScale = 4;
 
 [[noreturn]] void refuse(const std::string& text, const std::string& must) {
@@ -89,6 +92,22 @@ void parseSize(Request& request, const std::string& text) {
     }
     if (std::int64_t(request.settings.width) * request.settings.height > kMaxPixels)
         refuse(text, "at most " + std::to_string(kMaxPixels) + " pixels");
+}
+
+// "1-48", or one frame.
+void parseFrames(Request& request, const std::string& text) {
+    const std::string must = "A-B, two frames from 0 to " + std::to_string(kMaxFrame) + " in order, as in 1-48";
+    const std::size_t dash = text.find('-');
+    Request::FrameRange range;
+    try {
+        range.first = static_cast<int>(parseInteger(text.substr(0, dash), 0, kMaxFrame));
+        range.last = dash == text.npos ? range.first
+                                       : static_cast<int>(parseInteger(text.substr(dash + 1), 0, kMaxFrame));
+    } catch (const UsageError&) {
+        refuse(text, must);
+    }
+    if (range.last < range.first) refuse(text, must);
+    request.frames = range;
 }
 
 void parseAovs(Request& request, const std::string& text, std::span<const char* const> names) {
@@ -299,6 +318,18 @@ std::vector<Option> makeOptions() {
          "first camera of the scene, else auto)",
          false, [](Request& r, const std::string& text) { r.camera = parseText(text); }},
 
+        {"--animation", "ANIMATION", kView, view,
+         "The pose of this animation of the scene, by its name or its number from 0 (default: with --time or --frames the "
+         "first, else the scene rests)",
+         false, [](Request& r, const std::string& text) { r.animation = parseText(text); }},
+        {"--time", "S", kView, view, "Seconds from where the animation begins (default: 0)", false,
+         [](Request& r, const std::string& text) { r.time = parseNumber(text, 0, kMaxSeconds); }},
+        {"--frames", "A-B", kRender, view,
+         "Pictures of these frames of the animation, one a file: -o OUT.%04d.png puts the frame's number there", false,
+         parseFrames},
+        {"--fps", "N", kRender, view, "Frames a second: frame F shows the time F / N (default: 24)", false,
+         [](Request& r, const std::string& text) { r.fps = parseNumber(text, kMinFps, kMaxFps); }},
+
         {"--skin", "GLOB", kView, quality,
          "Materials whose names match are skin, or 'none' (default: those marked in the file, else those "
          "named like "
@@ -383,6 +414,17 @@ void checkConflicts(const Request& request) {
     if (request.tolerance && own)
         throw UsageError("--tolerance chooses what --irradiance-size, --gaussians, --merge, --chain and --taps set: they "
                          "exclude each other");
+    if (request.frames && request.time) throw UsageError("--frames and --time exclude each other");
+    if (request.fps && !request.frames) throw UsageError("--fps is that of --frames");
+    if (request.frames) {
+        std::vector<std::filesystem::path> files = request.outputs;
+        if (!request.stats.empty()) files.push_back(request.stats);
+        for (const std::filesystem::path& file : files) {
+            if (!hasFrameNumber(file))
+                throw UsageError("--frames writes many files: '" + file.string() +
+                                 "' needs a place for the frame's number, as in OUT.%04d.png");
+        }
+    }
     if (request.rig == "none" && !request.lights.empty())
         throw UsageError("--rig none and --light exclude each other");
 }

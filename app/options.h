@@ -24,12 +24,21 @@ struct Request {
     std::optional<std::string> environment;  // file or "none"; unset: the rig's
     std::optional<double> environmentIntensity, environmentRotation;  // unset: the rig's
     std::string camera;                                               // as cameraFor takes it
+    std::optional<std::string> animation;                             // name or number; unset: the first, with a time
+    std::optional<double> time;                                       // seconds
     std::optional<std::string> skin;                                  // as GltfOptions takes it
     std::filesystem::path scene;                                      // for commands whose operand is a rig
     double exposure = 0;                                              // EV, added to the rig's
     std::string device;                                               // as gpu::DeviceOptions takes it
     Background background = Background::none;                         // of cutis render
     RenderSettings settings;
+
+    // Of cutis render: pictures of first to last, at frame / fps seconds.
+    struct FrameRange {
+        int first = 0, last = 0;
+    };
+    std::optional<FrameRange> frames;
+    std::optional<double> fps;
 
     double uiScale = 0;  // of cutis view: size of its interface; 0: as the desktop asks
 

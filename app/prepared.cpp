@@ -11,6 +11,7 @@ Prepared::Prepared(const Request& request)
 
 RenderInput renderInput(const Inputs& inputs) {
     return {.scene = &inputs.scene,
+            .poseRevision = inputs.poseRevision,
             .rig = inputs.rig,
             .environment = inputs.environment ? &*inputs.environment : nullptr,
             .camera = inputs.camera};

@@ -17,7 +17,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-void writeResult(const RenderResult& result, const Request& request, double exposure) {
+void writeResult(RenderResult& result, const Request& request, const Inputs& inputs) {
+    const double exposure = inputs.rig.exposure + request.exposure;
+    if (inputs.environment)
+        BackgroundPainter(*inputs.environment, request.background)
+            .paint(result.picture, inputs.camera, inputs.rig.environment);
     for (const fs::path& output : request.outputs) writePicture(output, result.picture, exposure);
     for (const std::string& name : request.settings.aovs)
         writeExr(aovFile(request.outputs.front(), name), result.aovs.at(name));
@@ -26,6 +30,46 @@ void writeResult(const RenderResult& result, const Request& request, double expo
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+void warnOfNonfinite(std::uint64_t values) {
+    if (values) warn(std::to_string(values) + " values of the result are not finite");
+}
+
+// One picture a frame, by one renderer: what does not move is kept from one to the next.
+void renderFrames(const Request& request, const RenderSettings& settings, Prepared& prepared, double loadMs,
+                  Progress& progress) {
+    const Request::FrameRange& frames = *request.frames;
+    Inputs& inputs = prepared.inputs;
+    for (int frame = frames.first; frame <= frames.last; ++frame)
+        checkInputsSurvive(inputs, filesToWrite(requestOfFrame(request, frame), "render"));
+    Renderer renderer(prepared.device, Renderer::Views::one);
+    progress.setStage("posing");
+    for (int frame = frames.first; frame <= frames.last; ++frame) {
+        setTime(inputs, request, timeOfFrame(request, frame));
+        renderer.anticipate(renderInput(inputs), settings);
+    }
+    std::uint64_t nonfinite = 0;
+    for (int frame = frames.first; frame <= frames.last; ++frame) {
+        progress.setStage("frame " + std::to_string(frame) + " of " + std::to_string(frames.last));
+        setTime(inputs, request, timeOfFrame(request, frame));
+        RenderResult result = renderer.render(renderInput(inputs), settings);
+        if (frame == frames.first) result.stats.loadMs = loadMs;
+        writeResult(result, requestOfFrame(request, frame), inputs);
+        nonfinite += result.stats.nonfinite;
+    }
+    warnOfNonfinite(nonfinite);
+}
+
+void renderOne(const Request& request, const RenderSettings& settings, Prepared& prepared, double loadMs,
+               Progress& progress) {
+    progress.setStage("rendering");
+    const Inputs& inputs = prepared.inputs;
+    RenderResult result = renderPicture(prepared.device, renderInput(inputs), settings);
+    result.stats.loadMs = loadMs;
+    progress.setStage("writing");
+    writeResult(result, request, inputs);
+    warnOfNonfinite(result.stats.nonfinite);
 }
 
 }  // namespace
@@ -38,27 +82,14 @@ int runRender(const Request& request) {
     progress.setStage("loading");
     const Clock::time_point start = Clock::now();
     Prepared prepared(request);
-    Inputs& inputs = prepared.inputs;
-    gpu::Device& device = prepared.device;
     const double loadMs = millisecondsSince(start);
-    checkInputsSurvive(inputs, outputs);
+    checkInputsSurvive(prepared.inputs, outputs);
 
     RenderSettings settings = request.settings;
-    if (request.tolerance) applyTolerance(*request.tolerance, inputs, device.info(), settings);
-
-    progress.setStage("rendering");
-    const RenderInput input = renderInput(inputs);
-    RenderResult result = renderPicture(device, input, settings);
-    result.stats.loadMs = loadMs;
-    if (inputs.environment)
-        BackgroundPainter(*inputs.environment, request.background)
-            .paint(result.picture, inputs.camera, inputs.rig.environment);
-
-    progress.setStage("writing");
-    writeResult(result, request, inputs.rig.exposure + request.exposure);
-    if (result.stats.nonfinite)
-        warn(std::to_string(result.stats.nonfinite) + " values of the result are not finite");
-    checkValidation(device);
+    if (request.tolerance) applyTolerance(*request.tolerance, prepared.inputs, prepared.device.info(), settings);
+    const auto draw = request.frames ? renderFrames : renderOne;
+    draw(request, settings, prepared, loadMs, progress);
+    checkValidation(prepared.device);
     return 0;
 }
 

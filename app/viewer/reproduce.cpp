@@ -19,6 +19,12 @@ std::string shellWord(const std::string& text) {
     return result + "'";
 }
 
+// As short as reads back as the same.
+std::string numberText(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
 // The rig's file when it holds the rig as it is, else a copy named by its content.
 std::filesystem::path rigFileOf(const Session& session) {
     const Document& document = session.document();
@@ -51,6 +57,8 @@ std::string commandLine(Session& session) {
     if (solo) line += " --env none";
     const View& view = document.view;
     line += " --camera " + shellWord(view.camera.empty() ? toSelector(view.orbit) : view.camera);
+    if (session.request.animation) line += " --animation " + shellWord(*session.request.animation);
+    if (session.request.time) line += " --time " + numberText(*session.request.time);
     if (session.request.skin) line += " --skin " + shellWord(*session.request.skin);
     const auto nameOf = [](const auto& names, auto value) {
         return std::string(names[static_cast<int>(value)]);

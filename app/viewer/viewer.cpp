@@ -140,6 +140,8 @@ class Viewer {
         request.environmentIntensity.reset();
         request.environmentRotation.reset();
         request.camera.clear();
+        request.animation.reset();
+        request.time.reset();
         opens_ = false;
         loader_.start(request);
     }

@@ -41,9 +41,7 @@ bool near(double kept, double wanted) {
     return kept > 0 && kept <= wanted * kDetailSlack && wanted <= kept * kDetailSlack;
 }
 
-}  // namespace
-
-void chooseDetail(FrameContext& frame) {
+Detail detailWanted(const FrameContext& frame) {
     const RenderSettings& settings = *frame.settings;
     const ViewCameraMetrics metrics(frame.input->camera, {settings.width, settings.height});
     const std::vector<double> mmPerUnit = mmPerUnitOf(*frame.input->scene, frame.geometry);
@@ -62,7 +60,26 @@ void chooseDetail(FrameContext& frame) {
             wanted.pixelsAcross =
                 std::max(wanted.pixelsAcross, glm::length(character.bounds.size()) / metres);
     }
+    return wanted;
+}
+
+}  // namespace
+
+void anticipateDetail(FrameContext& frame) {
+    const Detail wanted = detailWanted(frame);
     Detail& kept = frame.detail;
+    if (!kept.anticipated) kept = wanted;
+    kept.anticipated = true;
+    kept.pixelsAcross = std::max(kept.pixelsAcross, wanted.pixelsAcross);
+    for (std::size_t i = 0; i < kept.mmPerTexel.size(); ++i) {
+        kept.mmPerTexel[i] = std::min(kept.mmPerTexel[i], wanted.mmPerTexel[i]);
+    }
+}
+
+void chooseDetail(FrameContext& frame) {
+    Detail& kept = frame.detail;
+    if (kept.anticipated) return;
+    const Detail wanted = detailWanted(frame);
     const bool layoutStands =
         frame.anyView && kept.mmPerTexel.size() == wanted.mmPerTexel.size() &&
         std::equal(kept.mmPerTexel.begin(), kept.mmPerTexel.end(), wanted.mmPerTexel.begin(), near);

@@ -11,6 +11,7 @@ struct Detail {
     std::vector<double> mmPerTexel;  // of the atlas, wanted for each character
     double pixelsAcross = 0;         // largest diagonal of a character, in pixels of the picture
     int lightMapSize = 0;            // texels along each side
+    bool anticipated = false;        // by anticipateDetail: it stays as it is
 };
 
 // Fills frame.detail from the picture's size, its camera and the characters. For any view, what was chosen for an earlier
@@ -18,6 +19,9 @@ struct Detail {
 // anew at each.
 void chooseDetail(FrameContext& frame);
 inline constexpr double kDetailSlack = 1.6;
+
+// Makes frame.detail as fine as this picture asks, where it is not, and has chooseDetail keep to it.
+void anticipateDetail(FrameContext& frame);
 
 // Fills frame.detail.lightMapSize, for that many maps.
 void chooseLightMapSize(FrameContext& frame, std::size_t maps);

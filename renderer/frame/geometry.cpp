@@ -3,17 +3,37 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <span>
 
 #include "renderer/core/error.h"
+#include "renderer/core/files.h"
 #include "renderer/core/parallel.h"
+#include "renderer/scene/pose.h"
 
 namespace cutis {
 namespace {
 
-// Copies one primitive into the streams, in world space. A transform that mirrors turns the triangles over, so that
-// their front stays their front.
-void appendPrimitive(Geometry& geometry, const Primitive& primitive, const glm::dmat4& world, std::uint32_t draw) {
+// Appends a primitive to the streams: what no pose changes, and room for the rest.
+void appendPrimitive(Geometry& geometry, const Primitive& primitive, std::uint32_t draw) {
     const auto base = static_cast<std::uint32_t>(geometry.positions.size());
+    geometry.positions.resize(base + primitive.positions.size());
+    for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+        shared::VertexAttributes a{};
+        a.uv0 = primitive.uv0.empty() ? glm::vec2(0) : primitive.uv0[i];
+        a.uv1 = primitive.uv1.empty() ? glm::vec2(0) : primitive.uv1[i];
+        a.color = primitive.colors.empty() ? glm::vec4(1) : primitive.colors[i];
+        geometry.attributes.push_back(a);
+    }
+    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+        const std::uint32_t* t = &primitive.indices[i];
+        geometry.indices.insert(geometry.indices.end(), {base + t[0], base + t[1], base + t[2]});
+        geometry.triangleDraws.push_back(draw);
+    }
+}
+
+// Puts one draw where `world` takes it. A transform that mirrors turns the triangles over, so that their front stays
+// their front.
+void placeDraw(Geometry& geometry, GeometryDraw& draw, const Primitive& primitive, const glm::dmat4& world) {
     const glm::dmat3 linear(world);
     const double determinant = glm::determinant(linear);
     // The cofactor matrix carries normals even where the transform flattens an axis and has no inverse.
@@ -22,36 +42,42 @@ void appendPrimitive(Geometry& geometry, const Primitive& primitive, const glm::
     const double side = determinant < 0 ? -1 : 1;
     for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
         const glm::dvec3 p = glm::dvec3(world * glm::dvec4(primitive.positions[i], 1)) - geometry.origin;
-        geometry.positions.emplace_back(p);
-        shared::VertexAttributes a{};
+        geometry.positions[draw.firstVertex + i] = glm::vec3(p);
+        shared::VertexAttributes& a = geometry.attributes[draw.firstVertex + i];
         const glm::dvec3 n = cofactor * glm::dvec3(primitive.normals[i]) * side;
         const double length = glm::length(n);
         a.normal = length > 0 ? glm::vec3(n / length) : glm::vec3(primitive.normals[i]);
-        if (!primitive.tangents.empty()) {
-            const glm::dvec3 t = linear * glm::dvec3(primitive.tangents[i]);
-            const double tangentLength = glm::length(t);
-            a.tangent = tangentLength > 0 ? glm::vec4(glm::vec3(t / tangentLength),
-                                                      primitive.tangents[i].w * static_cast<float>(side))
-                                          : glm::vec4(0);
-        }
-        a.uv0 = primitive.uv0.empty() ? glm::vec2(0) : primitive.uv0[i];
-        a.uv1 = primitive.uv1.empty() ? glm::vec2(0) : primitive.uv1[i];
-        a.color = primitive.colors.empty() ? glm::vec4(1) : primitive.colors[i];
-        geometry.attributes.push_back(a);
+        if (primitive.tangents.empty()) continue;
+        const glm::dvec3 t = linear * glm::dvec3(primitive.tangents[i]);
+        const double tangentLength = glm::length(t);
+        a.tangent = tangentLength > 0 ? glm::vec4(glm::vec3(t / tangentLength),
+                                                  primitive.tangents[i].w * static_cast<float>(side))
+                                      : glm::vec4(0);
     }
-    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-        const std::uint32_t* t = &primitive.indices[i];
-        geometry.indices.push_back(base + t[0]);
-        geometry.indices.push_back(base + (determinant < 0 ? t[2] : t[1]));
-        geometry.indices.push_back(base + (determinant < 0 ? t[1] : t[2]));
-        geometry.triangleDraws.push_back(draw);
+    if (draw.mirrored == (determinant < 0)) return;
+    draw.mirrored = determinant < 0;
+    for (std::uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3) {
+        std::swap(geometry.indices[i + 1], geometry.indices[i + 2]);
     }
 }
 
-Bounds worldBounds(const Primitive& primitive, const glm::dmat4& world) {
+Bounds worldBounds(const std::vector<glm::vec3>& positions, const glm::dmat4& world) {
     Bounds bounds;
-    for (const glm::vec3& p : primitive.positions) bounds.extend(glm::dvec3(world * glm::dvec4(p, 1)));
+    for (const glm::vec3& p : positions) bounds.extend(glm::dvec3(world * glm::dvec4(p, 1)));
     return bounds;
+}
+
+// Positions of the primitive as the scene rests.
+const std::vector<glm::vec3>& restOf(const Primitive& primitive) {
+    return primitive.restPositions.empty() ? primitive.positions : primitive.restPositions;
+}
+
+// Grown outwards to a grid of an eighth of the scene's size at rest.
+Bounds inSteps(const Bounds& bounds, const glm::dvec3& origin, const Bounds& rest) {
+    const double step = 0.125 * glm::length(rest.size());
+    if (bounds.empty() || !(step > 0)) return bounds;
+    return {origin + glm::floor((bounds.min - origin) / step) * step,
+            origin + glm::ceil((bounds.max - origin) / step) * step};
 }
 
 std::vector<GeometryDraw> collectDraws(const Scene& scene) {
@@ -69,7 +95,6 @@ std::vector<GeometryDraw> collectDraws(const Scene& scene) {
             draw.material = primitive.material;
             draw.character = scene.nodeCharacter.empty() ? -1 : scene.nodeCharacter[node];
             draw.skin = scene.materials[primitive.material].skin.has_value() && draw.character >= 0;
-            draw.bounds = worldBounds(primitive, scene.nodes[node].world);
             draws.push_back(draw);
         }
     }
@@ -79,15 +104,43 @@ std::vector<GeometryDraw> collectDraws(const Scene& scene) {
 
 }  // namespace
 
+void followPose(const Scene& scene, Geometry& geometry) {
+    const bool moves = !geometry.restPositions.empty();
+    parallelFor(geometry.draws.size(), [&](std::size_t k) {
+        GeometryDraw& draw = geometry.draws[k];
+        const Primitive& primitive = scene.meshes[draw.mesh].primitives[draw.primitive];
+        const glm::dmat4& world = scene.nodes[draw.node].world;
+        placeDraw(geometry, draw, primitive, world);
+        draw.bounds = worldBounds(primitive.positions, world);
+        if (!moves) return;
+        const auto bytesOf = [&](const auto& stream) {
+            return std::as_bytes(std::span(stream).subspan(draw.firstVertex, draw.vertexCount));
+        };
+        draw.pose = hashBytes(bytesOf(geometry.attributes), hashBytes(bytesOf(geometry.positions)));
+    });
+    geometry.bounds = {};
+    for (ReceiverGroup& group : geometry.receiverGroups) group.bounds = {};
+    for (std::size_t k = 0; k < geometry.draws.size(); ++k) {
+        geometry.bounds.extend(geometry.draws[k].bounds);
+        geometry.receiverGroups[geometry.drawInfos[k].receiverGroup].bounds.extend(geometry.draws[k].bounds);
+    }
+    Bounds rest;
+    for (const ReceiverGroup& group : geometry.receiverGroups) rest.extend(group.restBounds);
+    geometry.casters = moves ? inSteps(geometry.bounds, geometry.origin, rest) : geometry.bounds;
+}
+
 Geometry flattenScene(const Scene& scene) {
     Geometry geometry;
     geometry.draws = collectDraws(scene);
+    const std::vector<glm::dmat4> restWorlds = restWorldTransforms(scene);
+    Bounds rest;
     std::uint64_t vertices = 0, indices = 0;
-    for (const GeometryDraw& draw : geometry.draws) {
+    for (GeometryDraw& draw : geometry.draws) {
         const Primitive& primitive = scene.meshes[draw.mesh].primitives[draw.primitive];
         vertices += primitive.positions.size();
         indices += primitive.indices.size();
-        geometry.bounds.extend(draw.bounds);
+        draw.bounds = worldBounds(restOf(primitive), restWorlds[draw.node]);
+        rest.extend(draw.bounds);
         if (draw.skin && primitive.uv0.empty()) {
             throw Error("cannot render skin", "it has no texture coordinates (TEXCOORD_0)",
                         "mesh \"" + scene.meshes[draw.mesh].name + "\"");
@@ -97,7 +150,7 @@ Geometry flattenScene(const Scene& scene) {
         throw Error("scene too large", std::to_string(vertices) + " vertices and " + std::to_string(indices / 3) +
                     " triangles do not fit 32-bit indices", scene.file.string());
     }
-    geometry.origin = geometry.bounds.empty() ? glm::dvec3(0) : geometry.bounds.centre();
+    geometry.origin = rest.empty() ? glm::dvec3(0) : rest.centre();
     geometry.positions.reserve(vertices);
     geometry.attributes.reserve(vertices);
     geometry.indices.reserve(indices);
@@ -105,9 +158,9 @@ Geometry flattenScene(const Scene& scene) {
 
     // Groups: every character, then the rest when there is any.
     geometry.receiverGroups.resize(scene.characters.size());
-    bool rest = false;
-    for (const GeometryDraw& draw : geometry.draws) rest |= draw.character < 0;
-    if (rest) geometry.receiverGroups.emplace_back();
+    bool others = false;
+    for (const GeometryDraw& draw : geometry.draws) others |= draw.character < 0;
+    if (others) geometry.receiverGroups.emplace_back();
 
     for (std::size_t k = 0; k < geometry.draws.size(); ++k) {
         GeometryDraw& draw = geometry.draws[k];
@@ -115,7 +168,7 @@ Geometry flattenScene(const Scene& scene) {
         draw.firstVertex = static_cast<std::uint32_t>(geometry.positions.size());
         draw.vertexCount = static_cast<std::uint32_t>(primitive.positions.size());
         draw.firstIndex = static_cast<std::uint32_t>(geometry.indices.size());
-        appendPrimitive(geometry, primitive, scene.nodes[draw.node].world, static_cast<std::uint32_t>(k));
+        appendPrimitive(geometry, primitive, static_cast<std::uint32_t>(k));
         draw.indexCount = static_cast<std::uint32_t>(geometry.indices.size()) - draw.firstIndex;
         shared::DrawInfo info{};
         info.material = static_cast<std::uint32_t>(draw.material);
@@ -131,13 +184,19 @@ Geometry flattenScene(const Scene& scene) {
             info.firstProbe = geometry.probeCount;
             geometry.probeCount += draw.vertexCount;
         }
-        geometry.receiverGroups[info.receiverGroup].bounds.extend(draw.bounds);
+        geometry.receiverGroups[info.receiverGroup].restBounds.extend(draw.bounds);
         geometry.drawInfos.push_back(info);
+        if (scene.animations.empty()) continue;
+        for (const glm::vec3& p : restOf(primitive)) {
+            geometry.restPositions.emplace_back(glm::dvec3(restWorlds[draw.node] * glm::dvec4(p, 1)) - geometry.origin);
+        }
     }
+    followPose(scene, geometry);
     return geometry;
 }
 
 std::vector<std::uint32_t> makeOcclusionProxies(Geometry& geometry, double error) {
+    const AtRest atRest(geometry);
     std::vector<std::vector<unsigned>> proxies(geometry.draws.size());
     parallelFor(geometry.draws.size(), [&](std::size_t d) {
         const GeometryDraw& draw = geometry.draws[d];

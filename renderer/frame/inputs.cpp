@@ -98,6 +98,9 @@ InputHashes hashInputs(const FrameContext& frame) {
     InputHashes hashes{};
     const auto set = [&](Input input, std::uint64_t hash) { hashes[static_cast<std::size_t>(input)] = hash; };
     set(Input::geometry, hashGeometry(*frame.input));
+    ContentHash pose;
+    for (const GeometryDraw& draw : frame.geometry.draws) pose.add(draw.pose);
+    set(Input::pose, pose.value());
     set(Input::textures, hashTextures(frame));
     set(Input::materials, hashMaterials(scene));
     ContentHash layer, mix;

@@ -25,9 +25,9 @@ struct Changes {
     std::set<Resource> resources;
     bool needs = false;
     // Nothing but some of these.
-    bool only(const std::set<Input>& these) const {
-        return !first && !needs && resources.empty() &&
-               std::includes(these.begin(), these.end(), inputs.begin(), inputs.end());
+    bool only(const std::set<Input>& these, const std::set<Resource>& andThese = {}) const {
+        return !first && !needs && std::includes(these.begin(), these.end(), inputs.begin(), inputs.end()) &&
+               std::includes(andThese.begin(), andThese.end(), resources.begin(), resources.end());
     }
 };
 

@@ -21,12 +21,14 @@ class LightMapLayers {
         std::vector<std::uint32_t> draw;  // views whose layer does not hold them yet
     };
     // Fills LightView::layer of every view. Those that are not needed get any layer, and nothing is drawn for them.
-    Assignment assign(std::vector<shared::LightView>& views, const std::vector<bool>& needed);
+    // `contents`, a hash a view of what it shows; empty where that never changes.
+    Assignment assign(std::vector<shared::LightView>& views, const std::vector<bool>& needed,
+                      const std::vector<std::uint64_t>& contents = {});
     std::uint32_t layers() const { return static_cast<std::uint32_t>(held_.size()); }
     void forget() { held_.clear(); }
 
   private:
-    std::vector<std::optional<shared::LightView>> held_;  // a layer
+    std::vector<std::optional<std::uint64_t>> held_;  // a layer: a hash of the view that it holds and of its content
 };
 
 }  // namespace cutis

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "renderer/core/hash.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/opposite.h"
 #include "renderer/gpu/device.h"
@@ -63,22 +64,37 @@ void makeTarget(FrameContext& frame) {
 
 // Rows of the frame
 
-// Draws the views that no layer holds yet. Whatever the views show, as well as how it is drawn, only lights may have
-// changed for a layer to stay.
+// Hashes of what each view shows, in the pose that it is in.
+std::vector<std::uint64_t> contentsOf(const std::vector<shared::LightView>& views, const Geometry& geometry) {
+    std::vector<std::uint64_t> contents;
+    for (const shared::LightView& view : views) {
+        ContentHash content;
+        for (const GeometryDraw& draw : geometry.draws) {
+            const glm::vec3 low(draw.bounds.min - geometry.origin), high(draw.bounds.max - geometry.origin);
+            if (reaches(view.worldToClip, low, high)) content.add(draw.firstIndex, draw.pose);
+        }
+        contents.push_back(content.value());
+    }
+    return contents;
+}
+
+// Draws the views that no layer holds yet. Only lights and poses may have changed for a layer to stay, and of those whose
+// view shows it neither.
 void lightMapsRow(FrameContext& frame) {
     std::vector<LightSample> shadowed;
     for (const LightSample& sample : frame.lighting.samples) {
         if (sample.shadow) shadowed.push_back(sample);
     }
     LightMaps& maps = frame.lights;
-    if (!frame.changes->only({Input::lightPlaces, Input::lightMapsNeeded})) {
+    if (!frame.changes->only({Input::lightPlaces, Input::lightMapsNeeded}, {Resource::meshes})) {
         frame.lightMapLayers.forget();
         maps.depth = {}, maps.entry = {};
     }
     maps.size = frame.detail.lightMapSize;
     maps.viewList =
-        computeLightViews(shadowed, frame.groups, frame.geometry.bounds, frame.geometry.origin, maps.size);
-    const LightMapLayers::Assignment assigned = frame.lightMapLayers.assign(maps.viewList, frame.lighting.mapsNeeded);
+        computeLightViews(shadowed, frame.groups, frame.geometry.casters, frame.geometry.origin, maps.size);
+    const LightMapLayers::Assignment assigned =
+        frame.lightMapLayers.assign(maps.viewList, frame.lighting.mapsNeeded, contentsOf(maps.viewList, frame.geometry));
     maps.views = gpu::Buffer(*frame.device, {.name = "light views", .bytes = maps.viewList.size() * sizeof(shared::LightView)});
     frame.commands->upload(maps.views, maps.viewList);
     if (assigned.newImage) {
@@ -267,30 +283,34 @@ std::vector<PassRow> rowsBeforeTheFrame() {
         {.name = "environment_settings", .phase = Phase::upload, .need = Need::environment,
          .inputs = {I::environmentRotation, I::environmentPower}, .reads = {R::environmentMaps},
          .writes = {R::environmentSettings}, .record = uploadEnvironmentSettings, .forget = forgetEnvironmentSettings},
-        {.name = "meshes", .phase = Phase::upload, .need = Need::always, .inputs = {I::geometry},
+        {.name = "meshes", .phase = Phase::upload, .need = Need::always, .inputs = {I::geometry, I::pose},
          .reads = {}, .writes = {R::meshes}, .record = uploadMeshes, .forget = forgetMeshes},
-        {.name = "sky_occluders", .phase = Phase::upload, .need = Need::environment, .inputs = {}, .reads = {R::meshes},
+        {.name = "sky_occluders", .phase = Phase::upload, .need = Need::environment, .inputs = {I::geometry}, .reads = {},
          .writes = {R::occluders}, .record = uploadOccluders, .forget = forgetOccluders},
         {.name = "textures", .phase = Phase::upload, .need = Need::always, .inputs = {I::textures}, .reads = {},
          .writes = {R::textures}, .record = uploadSceneTextures, .forget = forgetTextures},
         {.name = "materials", .phase = Phase::upload, .need = Need::always,
-         .inputs = {I::materials, I::skinLayer, I::skinMix, I::profiles}, .reads = {R::meshes, R::textures},
-         .readsIf = {R::occluders}, .variants = {Need::transparency, Need::skinSpecular}, .writes = {R::materials}, .record = uploadMaterials},
-        {.name = "atlas_layout", .phase = Phase::upload, .need = Need::skin, .inputs = {I::atlasDetail},
-         .reads = {R::meshes}, .writes = {R::layout}, .record = uploadLayout, .forget = forgetLayout},
+         .inputs = {I::geometry, I::materials, I::skinLayer, I::skinMix, I::profiles}, .reads = {R::textures},
+         .variants = {Need::transparency, Need::skinSpecular}, .writes = {R::materials}, .record = uploadMaterials},
+        {.name = "atlas_layout", .phase = Phase::upload, .need = Need::skin, .inputs = {I::geometry, I::atlasDetail},
+         .reads = {}, .writes = {R::layout}, .record = uploadLayout, .forget = forgetLayout},
+        {.name = "stretch", .phase = Phase::upload, .need = Need::motion, .inputs = {},
+         .reads = {R::meshes, R::layout}, .writes = {R::stretch}, .record = uploadStretch},
         {.name = "draws", .phase = Phase::upload, .need = Need::always, .inputs = {}, .reads = {R::meshes},
          .readsIf = {R::layout}, .writes = {R::draws}, .record = uploadDraws},
+        {.name = "draw_ranges", .phase = Phase::upload, .need = Need::always, .inputs = {I::materials},
+         .reads = {R::meshes, R::textures}, .readsIf = {R::occluders}, .writes = {R::ranges}, .record = findDrawRanges},
         {.name = "profiles", .phase = Phase::upload, .need = Need::skin, .inputs = {I::profiles}, .reads = {R::layout},
          .writes = {R::profiles}, .record = uploadProfiles, .forget = forgetProfiles},
         {.name = "seams", .phase = Phase::upload, .need = Need::seams, .inputs = {I::levels},
          .reads = {R::layout}, .writes = {R::seams}, .record = uploadSeams, .forget = forgetSeams},
         {.name = "opposite_sides", .phase = Phase::upload, .need = Need::oppositeSides, .inputs = {I::profiles},
-         .reads = {R::layout}, .writes = {R::oppositeVertices}, .record = makeOppositeVertices,
+         .reads = {R::meshes, R::layout}, .writes = {R::oppositeVertices}, .record = makeOppositeVertices,
          .forget = forgetOppositeVertices},
-        {.name = "lights", .phase = Phase::upload, .need = Need::always, .inputs = {I::lightPlaces, I::lightPower},
-         .reads = {R::meshes}, .writes = {R::lights}, .record = uploadLightSamples},
-        {.name = "view_buffers", .phase = Phase::upload, .need = Need::always, .inputs = {I::pictureSize, I::materials},
-         .reads = {R::meshes}, .variants = {Need::transparency}, .writes = {R::viewBuffers}, .record = makeViewBuffers, .forget = forgetViewBuffers},
+        {.name = "lights", .phase = Phase::upload, .need = Need::always, .inputs = {I::geometry, I::lightPlaces, I::lightPower},
+         .reads = {}, .writes = {R::lights}, .record = uploadLightSamples},
+        {.name = "view_buffers", .phase = Phase::upload, .need = Need::always, .inputs = {I::geometry, I::pictureSize, I::materials},
+         .reads = {}, .variants = {Need::transparency}, .writes = {R::viewBuffers}, .record = makeViewBuffers, .forget = forgetViewBuffers},
         {.name = "picture", .phase = Phase::upload, .need = Need::always, .inputs = {I::pictureSize, I::aovs},
          .reads = {}, .writes = {R::target}, .record = makeTarget, .forget = forgetTarget},
     };
@@ -301,7 +321,7 @@ std::vector<PassRow> rowsOfTheFrame() {
     using R = Resource;
     return {
         {.name = "surface", .phase = Phase::frame, .need = Need::skin, .inputs = {I::materials, I::levels},
-         .reads = {R::meshes, R::layout, R::draws, R::textures}, .readsIf = {R::seams}, .writes = {R::surface}, .record = surfaceRow,
+         .reads = {R::meshes, R::layout, R::draws, R::textures}, .readsIf = {R::seams, R::stretch}, .writes = {R::surface}, .record = surfaceRow,
          .forget = forgetSurface},
         {.name = "visible", .phase = Phase::frame, .need = Need::hiddenSkin, .inputs = {I::camera, I::materials},
          .reads = {R::viewBuffers, R::surface}, .writes = {R::seen}, .record = visibleRow},
@@ -309,8 +329,8 @@ std::vector<PassRow> rowsOfTheFrame() {
          .reads = {R::surface, R::oppositeVertices}, .readsIf = {R::seen}, .updates = {R::seen},
          .writes = {R::thickness}, .record = oppositeRow, .forget = forgetOpposite},
         {.name = "light_maps", .phase = Phase::frame, .need = Need::shadows,
-         .inputs = {I::lightPlaces, I::lightMapSize, I::lightMapsNeeded, I::materials}, .reads = {R::meshes, R::textures},
-         .readsIf = {R::layout}, .variants = {Need::translucency}, .writes = {R::lightMaps}, .record = lightMapsRow,
+         .inputs = {I::geometry, I::lightPlaces, I::lightMapSize, I::lightMapsNeeded, I::materials},
+         .reads = {R::meshes, R::textures}, .readsIf = {R::layout}, .variants = {Need::translucency}, .writes = {R::lightMaps}, .record = lightMapsRow,
          .forget = forgetLightMaps, .amends = true},
         {.name = "thickness", .phase = Phase::frame, .need = Need::translucency,
          .inputs = {I::lightPlaces, I::profiles}, .reads = {R::surface, R::lightMaps}, .readsIf = {R::seen},
@@ -320,7 +340,7 @@ std::vector<PassRow> rowsOfTheFrame() {
          .record = neededTexelsRow},
         {.name = "environment_visibility", .phase = Phase::frame, .need = Need::environment,
          .inputs = {I::environment, I::environmentRotation, I::groupsSeen, I::materials},
-         .reads = {R::meshes, R::draws, R::textures, R::occluders, R::skyClusters},
+         .reads = {R::meshes, R::draws, R::ranges, R::textures, R::occluders, R::skyClusters},
          .readsIf = {R::surface, R::tiles}, .writes = {R::visibility}, .record = environmentVisibilityRow,
          .forget = forgetVisibility},
         {.name = "irradiance", .phase = Phase::frame, .need = Need::litSkin, .inputs = {I::skinLayer, I::skinMix},
@@ -333,7 +353,7 @@ std::vector<PassRow> rowsOfTheFrame() {
          .reads = {R::levels}, .readsIf = {R::thickness}, .writes = {R::exitance}, .record = exitanceRow,
          .forget = forgetExitance},
         {.name = "composite", .phase = Phase::frame, .need = Need::always, .inputs = {I::camera},
-         .reads = {R::meshes, R::textures, R::materials, R::draws, R::lights, R::viewBuffers, R::target},
+         .reads = {R::meshes, R::textures, R::materials, R::draws, R::ranges, R::lights, R::viewBuffers, R::target},
          .readsIf = {R::exitance, R::lightMaps, R::visibility, R::environmentMaps, R::environmentSettings},
          .writes = {R::picture}, .record = compositeRow},
     };

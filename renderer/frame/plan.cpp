@@ -65,6 +65,11 @@ Needs computeNeeds(const NeedsInput& input) {
         : input.seams < 1 ? "no skin goes on beyond the border of its UV island"
         : wholeSkin       ? "the published chain stops at the borders of UV islands"
                           : count(static_cast<int>(input.seams), "edge") + " of UV islands beyond which skin goes on");
+    set(Need::motion, skin && lit && (input.animations > 0 || !input.prune),
+        !skin                  ? "nothing is skin"
+        : !lit                 ? "no light"
+        : input.animations > 0 ? count(input.animations, "animation") + " may stretch the skin"
+                               : "nothing moves");
     set(Need::transparency, input.blendedDraws > 0 || !input.prune,
         input.blendedDraws > 0 ? count(input.blendedDraws, "surface") + " seen through"
                                : "nothing is seen through: one layer of surfaces");

@@ -14,9 +14,9 @@ struct FrameContext;
 // What a scene may need. A row of the pass table runs when its need is met.
 enum class Need {
     always, skin, litSkin, hiddenSkin, lights, areaLights, shadows, translucency, oppositeSides, environment,
-    skinSpecular, transparency, seams
+    skinSpecular, transparency, seams, motion
 };
-inline constexpr int kNeedCount = 13;
+inline constexpr int kNeedCount = 14;
 
 // Each need with the reason for which it is met or not, in words.
 struct Needs {
@@ -32,6 +32,7 @@ struct NeedsInput {
     int shinySkinMaterials = 0, blendedDraws = 0;
     std::size_t seams = 0;  // edges of UV islands beyond which the skin goes on
     bool environment = false;
+    int animations = 0;
     Merge merge = Merge::min;
     Chain chain = Chain::exact;
     bool prune = true;
@@ -44,7 +45,8 @@ std::vector<LeftOut> leftOutWithinRows(const Needs& needs);
 // What a picture is made of, in parts that change apart from one another. A row names those that it reads, and runs again
 // only when one of them has changed (frame/inputs.h).
 enum class Input {
-    geometry,             // meshes, where they stand, which of them are skin, and its size in mm
+    geometry,             // meshes, where they stand at rest, which of them are skin, and its size in mm
+    pose,                 // where they stand now, and how they are deformed
     textures,             // images, and which of them are sampled
     materials,            // all that a material has but what follows
     skinLayer,            // roughness and specular scale of skin
@@ -65,13 +67,13 @@ enum class Input {
     pictureSize,
     aovs
 };
-inline constexpr int kInputCount = 20;
+inline constexpr int kInputCount = 21;
 
 // What rows hand to one another.
 enum class Resource {
     // Made before the frame
-    environmentMaps, environmentSettings, skyClusters, meshes, occluders, textures, materials, layout, draws, profiles,
-    seams, oppositeVertices, lights, viewBuffers, target,
+    environmentMaps, environmentSettings, skyClusters, meshes, occluders, textures, materials, layout, draws, ranges, profiles,
+    stretch, seams, oppositeVertices, lights, viewBuffers, target,
     // Written by passes
     surface, seen, lightMaps, thickness, tiles, visibility, irradiance, levels, exitance, picture
 };

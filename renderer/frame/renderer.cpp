@@ -23,6 +23,7 @@ double millisecondsSince(Clock::time_point start) {
 NeedsInput factsOf(const FrameContext& frame) {
     const Scene& scene = *frame.input->scene;
     NeedsInput facts;
+    facts.animations = static_cast<int>(scene.animations.size());
     facts.merge = frame.settings->merge;
     facts.chain = frame.settings->chain;
     facts.prune = frame.settings->prune;
@@ -50,14 +51,17 @@ NeedsInput factsOf(const FrameContext& frame) {
 struct Renderer::State {
     FrameContext frame;
     Kept kept;
-    std::uint64_t geometry = 0;  // hashGeometry of frame.geometry
+    std::uint64_t geometry = 0;      // hashGeometry of frame.geometry
+    std::uint64_t poseRevision = 0;  // that it is in
     std::map<const PassRow*, std::uint64_t> bytes;
     SkinFigures skin;
 
     RenderResult render(const RenderInput& input, const RenderSettings& settings);
     RenderStats plan(const RenderInput& input, const RenderSettings& settings);
+    void anticipate(const RenderInput& input, const RenderSettings& settings);
 
   private:
+    void readGeometry();
     void read();
     void findGroupsSeen();
     void drop(const Plan& plan);
@@ -68,21 +72,29 @@ struct Renderer::State {
     PassStats statsOf(const PassRow& row, const std::string& why, bool ran) const;
 };
 
-// All that decisions follow from.
-void Renderer::State::read() {
+void Renderer::State::readGeometry() {
     const RenderInput& input = *frame.input;
     const std::uint64_t key = hashGeometry(input);
     if (geometry != key) {
         geometry = 0;
         frame.geometry = flattenScene(*input.scene);
+        const AtRest atRest(frame.geometry);
         frame.skinMesh = makeSkinMesh(frame.geometry);
-        frame.groups.clear();
-        for (const ReceiverGroup& group : frame.geometry.receiverGroups) frame.groups.push_back(group.bounds);
         frame.detail = {};
         geometry = key;
+    } else if (poseRevision != input.poseRevision) {
+        followPose(*input.scene, frame.geometry);
     }
+    poseRevision = input.poseRevision;
+    frame.groups.clear();
+    for (const ReceiverGroup& group : frame.geometry.receiverGroups) frame.groups.push_back(group.bounds);
     frame.camera = viewCamera(input.camera, frame.geometry.origin, frame.geometry.bounds,
                               {frame.settings->width, frame.settings->height});
+}
+
+// All that decisions follow from.
+void Renderer::State::read() {
+    readGeometry();
     findGroupsSeen();
     chooseDetail(frame);
     readLighting(frame);
@@ -237,6 +249,13 @@ RenderStats Renderer::State::plan(const RenderInput& input, const RenderSettings
     return stats;
 }
 
+void Renderer::State::anticipate(const RenderInput& input, const RenderSettings& settings) {
+    frame.input = &input;
+    frame.settings = &settings;
+    readGeometry();
+    anticipateDetail(frame);
+}
+
 Renderer::Renderer(gpu::Device& device, Views views) : device_(device), views_(views) {}
 
 Renderer::~Renderer() = default;
@@ -263,6 +282,11 @@ RenderResult Renderer::render(const RenderInput& input, const RenderSettings& se
         forget();
         throw;
     }
+}
+
+void Renderer::anticipate(const RenderInput& input, const RenderSettings& settings) {
+    if (!state_) state_ = makeState();
+    state_->anticipate(input, settings);
 }
 
 RenderResult renderPicture(gpu::Device& device, const RenderInput& input, const RenderSettings& settings) {

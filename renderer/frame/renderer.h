@@ -61,10 +61,12 @@ inline constexpr const char* kAovNames[] = {"diffuse", "specular", "irradiance",
 
 // A Renderer finds out by itself what has changed since the picture before, but does not compare vertices and texels:
 // whoever changes meshes, nodes or images of a scene, or the texels of an environment, in place, counts their revision up.
+// After poseScene alone that is poseRevision: then only what stands otherwise than before is drawn anew.
 // Materials, which of them are skin, the rig and the camera are compared by value.
 struct RenderInput {
     const Scene* scene = nullptr;
     std::uint64_t sceneRevision = 0;
+    std::uint64_t poseRevision = 0;
     Rig rig = {};                              // enabled lights only count; placements resolved (resolvePlacements)
     const Environment* environment = nullptr;  // nullptr: none
     std::uint64_t environmentRevision = 0;
@@ -114,7 +116,8 @@ struct RenderResult {
 class Renderer {
   public:
     // any: skin is lit whether this view shows it or not, and texels stay as they are until the view asks for far finer or
-    // coarser ones, so that the camera is free. one: only what the picture shows is lit, which is less.
+    // coarser ones, so that the camera is free. one: only what the picture shows is lit, which is less. Either way a scene
+    // that moves keeps the layout of its skin that it has at rest.
     enum class Views { any, one };
     // The device must outlive it.
     explicit Renderer(gpu::Device& device, Views views = Views::any);
@@ -124,6 +127,9 @@ class Renderer {
 
     // Scene and environment are used during the call alone. Throws Error.
     RenderResult render(const RenderInput& input, const RenderSettings& settings);
+    // Counts in a picture of a sequence to come. From then on atlas and light maps are as fine as the finest of all pictures
+    // that were counted in asks, and stay so, for a texel that changes its size between two pictures shows.
+    void anticipate(const RenderInput& input, const RenderSettings& settings);
     // What `render` would run, with its memory, but for the figures that only running gives. Frees all that is kept.
     RenderStats plan(const RenderInput& input, const RenderSettings& settings);
     // Frees all that is kept.

@@ -44,7 +44,7 @@ void moveToWorld(RenderResult& result, const glm::dvec3& origin) {
 
 const char* nameOf(Input input) {
     constexpr const char* kNames[kInputCount] = {
-        "geometry",      "textures",    "materials",          "skin's specular layer", "albedo mix",           "profiles",
+        "geometry",      "pose",        "textures",    "materials",          "skin's specular layer", "albedo mix",           "profiles",
         "levels", "chain", "atlas size",  "light map size", "needed light maps", "characters in view",     "places of lights",      "intensities of lights", "environment",
         "rotation of the environment", "intensity of the environment", "camera", "picture size", "data channels"};
     return kNames[static_cast<int>(input)];
@@ -52,7 +52,7 @@ const char* nameOf(Input input) {
 
 const char* nameOf(Resource resource) {
     constexpr const char* kNames[] = {"filtered environment", "environment settings", "clusters of the environment", "meshes", "occluders of the sky",
-                                      "textures", "materials", "atlas layout", "draws", "profiles", "opposite sides",
+                                      "textures", "materials", "atlas layout", "draws", "ranges of draws", "profiles", "stretch", "seams", "opposite sides",
                                       "lights", "view buffers", "picture's memory", "surface", "seen triangles",
                                       "light maps", "thickness", "needed texels", "visibility of the sky", "irradiance",
                                       "blurred levels", "exitance", "picture"};

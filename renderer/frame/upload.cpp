@@ -7,6 +7,7 @@
 
 #include "renderer/frame/frame.h"
 #include "renderer/frame/seam_map.h"
+#include "renderer/frame/stretch.h"
 #include "renderer/gpu/device.h"
 #include "renderer/passes/diffusion.h"
 #include "renderer/skin/specular.h"
@@ -301,12 +302,13 @@ void uploadMaterials(FrameContext& frame) {
     buffers.materials = uploadBuffer(*frame.device, *frame.commands, "materials", materials);
     buffers.albedoTable = uploadBuffer(*frame.device, *frame.commands, "directional albedo", table);
     buffers.textureSlots = usedSlots(scene, frame.geometry);
-    buffers.ranges = makeRanges(scene, frame.geometry, frame.scene.texturePlaces);
     buffers.seenThrough = frame.needs[Need::transparency];
     buffers.skinShines = frame.needs[Need::skinSpecular];
 }
 
+// The layout is that of the scene at rest, whatever pose it is in: texels stay on the skin while it moves.
 void uploadLayout(FrameContext& frame) {
+    const AtRest atRest(frame.geometry);
     const AtlasOptions options{.size = frame.settings->irradianceSize,
                                .mmPerTexelWanted = frame.detail.mmPerTexel,
                                .reachMm = reachBeyondBorders(*frame.input->scene, frame.geometry, *frame.settings)};
@@ -322,6 +324,11 @@ void uploadLayout(FrameContext& frame) {
     buffers.borderTriangleCount = static_cast<std::uint32_t>(frame.atlas.borderTriangles.size());
 }
 
+void uploadStretch(FrameContext& frame) {
+    frame.scene.buffers.atlasVertices = uploadBuffer(*frame.device, *frame.commands, "atlas vertices",
+                                                     verticesInPose(*frame.input->scene, frame.geometry, frame.atlas));
+}
+
 void forgetLayout(FrameContext& frame) {
     SceneBuffers& buffers = frame.scene.buffers;
     buffers.atlasVertices = {}, buffers.skinTriangles = {}, buffers.borderTriangles = {};
@@ -333,6 +340,10 @@ void forgetLayout(FrameContext& frame) {
 void uploadDraws(FrameContext& frame) {
     frame.scene.draws = frame.geometry.drawInfos;
     frame.scene.buffers.draws = uploadBuffer(*frame.device, *frame.commands, "draws", frame.scene.draws);
+}
+
+void findDrawRanges(FrameContext& frame) {
+    frame.scene.buffers.ranges = makeRanges(*frame.input->scene, frame.geometry, frame.scene.texturePlaces);
 }
 
 void uploadProfiles(FrameContext& frame) {
@@ -349,6 +360,7 @@ void uploadProfiles(FrameContext& frame) {
 }
 
 void uploadSeams(FrameContext& frame) {
+    const AtRest atRest(frame.geometry);
     const std::vector<ChartRange> charts = chartRanges(*frame.input->scene, frame.atlas, *frame.settings);
     const std::vector<int> profiles = profileNumbers(charts);
     SeamLists& seams = frame.scene.buffers.seams;
@@ -369,7 +381,9 @@ void forgetSeams(FrameContext& frame) { frame.scene.buffers.seams = {}; }
 void uploadOccluders(FrameContext& frame) {
     // A third of a texel of the finest map that these meshes are drawn into.
     double texel = std::numeric_limits<double>::infinity();
-    for (const Bounds& group : frame.groups) texel = std::min(texel, glm::length(group.size()) / kVisibilityMapSize);
+    for (const ReceiverGroup& group : frame.geometry.receiverGroups) {
+        texel = std::min(texel, glm::length(group.restBounds.size()) / kVisibilityMapSize);
+    }
     frame.proxyError = 0.3 * texel;
     const std::vector<std::uint32_t> indices = makeOcclusionProxies(frame.geometry, frame.proxyError);
     frame.scene.buffers.proxyIndices = uploadBuffer(*frame.device, *frame.commands, "sky occluders", indices, true);

@@ -45,6 +45,18 @@ TEST(LightMapLayers, OnlyNewViewsAreDrawn) {
     EXPECT_EQ(layers.layers(), 4u);
 }
 
+TEST(LightMapLayers, ViewsWhoseContentMovedAreDrawn) {
+    LightMapLayers layers;
+    const auto drawnWith = [&](const std::vector<std::uint64_t>& contents) {
+        auto views = viewsOf({1, 2, 3});
+        return layers.assign(views, {true, true, true}, contents).draw;
+    };
+    EXPECT_EQ(drawnWith({7, 8, 9}).size(), 3u);
+    EXPECT_TRUE(drawnWith({7, 8, 9}).empty());
+    EXPECT_EQ(drawnWith({7, 5, 9}), std::vector<std::uint32_t>{1});
+    EXPECT_EQ(layers.layers(), 3u);
+}
+
 TEST(LightMapLayers, ALightThatWasOffComesBack) {
     LightMapLayers layers;
     drawn(layers, {1, 2, 3, 4});
