@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/frame_files.h"
 #include "app/output_files.h"
 #include "app/prepared.h"
 #include "app/progress.h"

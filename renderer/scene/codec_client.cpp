@@ -98,7 +98,7 @@ bool converse(int socket, const codec::Request& request, std::span<const std::by
 
 bool hasMadeSense(const codec::Request& request, const codec::Reply& reply) {
     const PixelLayout& layout = reply.layout;
-    const bool decoded = request.operation != Operation::encode;
+    const bool decoded = request.operation != Operation::encode && request.operation != Operation::decodeDraco;
     return !decoded || (layout.width > 0 && layout.width <= request.limits.width && layout.height > 0 &&
                         layout.height <= request.limits.height && layout.channels > 0 &&
                         layout.channels <= request.limits.channels && layout.bytes() == reply.dataBytes);
@@ -121,7 +121,7 @@ CodecResult perform(codec::Request request, std::uint64_t fileBytes, std::span<c
     if (!result.why.empty()) return result;
     result.data = SharedBytes::adopt(reply.descriptors[0], reply.message.dataBytes);
     if (!hasMadeSense(request, reply.message) || result.data.bytes().size() != reply.message.dataBytes)
-        result.why = "its decoder gave no picture";
+        result.why = "its decoder gave nothing of use";
     return result;
 }
 
@@ -158,6 +158,13 @@ CodecResult decodeImageFile(const std::string& path, const PixelLimits& limits) 
     std::error_code error;
     const std::uintmax_t bytes = fs::file_size(path, error);
     return perform(request, error ? 0 : bytes, {});
+}
+
+CodecResult decodeDraco(std::span<const std::byte> data, std::uint64_t maxBytes) {
+    codec::Request request;
+    request.operation = Operation::decodeDraco;
+    request.limits.bytes = maxBytes;
+    return perform(request, data.size(), data);
 }
 
 CodecResult encodeImage(const std::string& format, const PixelLayout& layout,

@@ -14,7 +14,7 @@
 
 namespace cutis {
 
-// Samples of an image, interleaved, and what they are; or a file that was made.
+// Samples of an image, interleaved, and what they are; or a mesh, or a file that was made.
 struct CodecResult {
     std::string why;  // why it failed; empty when it did not
     PixelLayout layout;
@@ -29,6 +29,8 @@ void startCodec();
 // MiB, has failed and says so. Throws Error when the process cannot be started.
 CodecResult decodeImageMemory(std::span<const std::byte> file, const std::string& format, const PixelLimits&);
 CodecResult decodeImageFile(const std::string& path, const PixelLimits&);
+// The block that codec/draco_codec.h describes, of up to `maxBytes`.
+CodecResult decodeDraco(std::span<const std::byte> data, std::uint64_t maxBytes);
 CodecResult encodeImage(const std::string& format, const PixelLayout&, std::span<const std::byte> samples);
 
 }  // namespace cutis

@@ -180,8 +180,16 @@ std::vector<T> readAccessor(Document& document, const JsonView& reference,
         count.fail("there cannot be " + std::to_string(stated));
     elements.count = std::size_t(stated);
     // Before anything is allocated: the buffer is as large as the count says, or the memory is accounted for.
-    const bool stored = accessor.find("bufferView").has_value();
-    if (stored) locate(document, accessor, elements, true);
+    const std::vector<std::byte>* supplied =
+        document.suppliedTo(reference.index(document.count("accessors"), "accessors"));
+    const bool stored = supplied || accessor.find("bufferView").has_value();
+    if (supplied) {
+        elements.stride = sizeOf(elements.type) * elements.components;
+        elements.data = supplied->data();
+        if (supplied->size() < elements.count * elements.stride) reference.fail("its compressed data is of another type");
+    } else if (stored) {
+        locate(document, accessor, elements, true);
+    }
     document.spend(elements.count * width * sizeof(T), reference);
 
     std::vector<T> values(elements.count * width, T(0));

@@ -16,6 +16,7 @@ namespace {
 constexpr const char* kSupported[] = {
     "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_unlit",
     "KHR_mesh_quantization", "KHR_texture_transform",           "EXT_texture_webp",
+    "EXT_meshopt_compression", "KHR_draco_mesh_compression",
 };
 
 // Values of the character set of RFC 4648, -1 for others.
@@ -209,6 +210,14 @@ std::span<const std::byte> Document::buffer(std::size_t index) {
 
 std::span<const std::byte> Document::bufferView(std::size_t index) {
     const JsonView view = entry("bufferViews", index);
+    const auto extensions = view.find("extensions");
+    const auto compression = extensions ? extensions->find("EXT_meshopt_compression") : std::nullopt;
+    if (!compression) return slice(view);
+    const auto known = decoded_.find(index);
+    return known != decoded_.end() ? known->second : decoded_[index] = decodeMeshopt(*compression);
+}
+
+std::span<const std::byte> Document::slice(const JsonView& view) {
     const auto bytes = buffer(view.member("buffer").index(count("buffers"), "buffers"));
     view.member("byteLength");
     const std::size_t offset = view.natural("byteOffset", 0), length = view.natural("byteLength", 0);

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -39,16 +40,28 @@ class Document {
     // The entry that a reference (a value that is an index into the root's array `name`) means.
     JsonView resolve(const JsonView& reference, const char* name) const;
 
-    // The bytes of a buffer view, checked to lie within its buffer. Loads the buffer when it is used first.
+    // The bytes of a buffer view, checked to lie within its buffer, decompressed where they are compressed. Loads the
+    // buffer when it is used first.
     std::span<const std::byte> bufferView(std::size_t index);
     // The bytes of a URI value: a data URI's, or those of a file within the folder of the glTF file.
     std::vector<std::byte> readUri(const JsonView& uri) const;
+
+    // The data of an accessor, tightly packed, that something else than a buffer view holds.
+    void supply(std::size_t accessor, std::vector<std::byte> data) { supplied_[accessor] = std::move(data); }
+    const std::vector<std::byte>* suppliedTo(std::size_t accessor) const {
+        const auto found = supplied_.find(accessor);
+        return found == supplied_.end() ? nullptr : &found->second;
+    }
 
     // Counts bytes about to be allocated for vertex data; fails at `where` beyond kMaxDecodedBytes.
     void spend(std::uint64_t bytes, const JsonView& where);
 
   private:
     std::span<const std::byte> buffer(std::size_t index);
+    // The bytes of a buffer that a value's `buffer`, `byteOffset` and `byteLength` mean.
+    std::span<const std::byte> slice(const JsonView& view);
+    // What EXT_meshopt_compression of a buffer view holds; in gltf_meshopt.cpp.
+    std::vector<std::byte> decodeMeshopt(const JsonView& extension);
     void parse(std::span<const std::byte> text);
     void openContainer();
     void checkExtensions() const;
@@ -60,6 +73,8 @@ class Document {
     std::vector<std::byte> bytes_;            // the file itself; a .glb's binary chunk stays in it
     std::span<const std::byte> binaryChunk_;  // of bytes_
     std::vector<std::optional<std::vector<std::byte>>> buffers_;  // loaded ones outside the binary chunk
+    std::map<std::size_t, std::vector<std::byte>> decoded_;       // per buffer view that is compressed
+    std::map<std::size_t, std::vector<std::byte>> supplied_;      // per accessor
     std::uint64_t spent_ = 0;
 };
 

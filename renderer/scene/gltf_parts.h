@@ -41,7 +41,7 @@ struct MaterialMap {
 // Materials that the scene's meshes use, with textures; Scene::images gets empty entries.
 MaterialMap readMaterials(Document& document, Scene& scene);
 
-// --- gltf_meshes.cpp, gltf_primitive.cpp, gltf_deformation.cpp ---
+// --- gltf_meshes.cpp, gltf_primitive.cpp, gltf_draco.cpp, gltf_deformation.cpp ---
 
 // Meshes and skins that nodes use; a mesh that deforms becomes one of its own per node. Node::mesh becomes an index into
 // Scene::meshes, Node::skin and Node::weights are filled in.
@@ -51,6 +51,9 @@ void readMeshes(Document& document, const NodeMap& nodes, const MaterialMap& mat
 // `material` is what it is made of, to know whether it needs tangents; `joints` how many its skin has, 0 without one.
 std::optional<Primitive> readPrimitive(Document& document, const JsonView& primitive, std::size_t joints,
                                        const Material& material);
+
+// Supplies the accessors of a primitive that KHR_draco_mesh_compression compresses with their data.
+void decompressPrimitive(Document& document, const JsonView& primitive);
 
 // Fills Primitive::deformation, where the primitive has morph targets, or joints while its skin has some. `vertices`
 // says which vertex of the file each vertex of the primitive is, `count` how many the file has.

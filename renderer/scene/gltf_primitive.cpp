@@ -117,6 +117,7 @@ std::optional<Primitive> readPrimitive(Document& document, const JsonView& primi
         return std::nullopt;
     }
 
+    decompressPrimitive(document, primitive);
     Primitive p;
     p.positions = readVec3(document, *position);
     const std::size_t count = p.positions.size();

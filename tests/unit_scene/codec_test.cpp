@@ -89,8 +89,8 @@ TEST_P(WorkerEnds, TheFileIsRefusedAndTheNextIsRead) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Codec, WorkerEnds,
-                         testing::Values(std::pair{SIGSEGV, "the image library crashed (Segmentation fault)"},
-                                         std::pair{SIGABRT, "the image library crashed (Aborted)"},
+                         testing::Values(std::pair{SIGSEGV, "its decoder crashed (Segmentation fault)"},
+                                         std::pair{SIGABRT, "its decoder crashed (Aborted)"},
                                          std::pair{SIGALRM, "too long"}, std::pair{SIGXCPU, "too long"},
                                          std::pair{SIGKILL, "too much time or memory"}));
 

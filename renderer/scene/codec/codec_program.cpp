@@ -1,5 +1,5 @@
-// cutis-codec: decodes and encodes image files for cutis, so that a file that crashes, hangs or bloats a
-// decoder takes neither cutis nor an unsaved rig with it.
+// cutis-codec: decodes and encodes image files, and decodes meshes, for cutis, so that a file that crashes,
+// hangs or bloats a decoder takes neither cutis nor an unsaved rig with it.
 //
 // It loads OpenImageIO once and answers each request in a process of its own, forked from the loaded one,
 // with limits of memory and time. Its socket is standard input; it ends when cutis does.
@@ -16,6 +16,7 @@
 #include <map>
 #include <string>
 
+#include "renderer/scene/codec/draco_codec.h"
 #include "renderer/scene/codec/protocol.h"
 #include "renderer/scene/codec/shared_bytes.h"
 
@@ -68,6 +69,9 @@ void answer(const Parcel<Request>& parcel) {
         case Operation::decodeFile:
             why = decodeFile(request.path.data(), request.limits, message.layout, allocate);
             break;
+        case Operation::decodeDraco:
+            why = codec::decodeDraco(given.bytes(), request.limits.bytes, allocate);
+            break;
         case Operation::encode:
             made = SharedBytes::file();
             why = encode(request.format.data(), request.layout, given.bytes(), made.path());
@@ -84,9 +88,9 @@ void answer(const Parcel<Request>& parcel) {
 // What is said for a process that could not say it itself.
 std::string causeOf(int status) {
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    if (signal == SIGXCPU || signal == SIGALRM) return "it takes the image library too long";
+    if (signal == SIGXCPU || signal == SIGALRM) return "it takes its decoder too long";
     if (signal == SIGKILL) return "it took too much time or memory";
-    return std::string("the image library crashed") +
+    return std::string("its decoder crashed") +
            (signal ? std::string(" (") + ::strsignal(signal) + ")" : "");
 }
 

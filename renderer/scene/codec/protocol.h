@@ -8,14 +8,14 @@
 
 namespace cutis::codec {
 
-enum class Operation : std::uint32_t { decodeMemory, decodeFile, encode };
+enum class Operation : std::uint32_t { decodeMemory, decodeFile, encode, decodeDraco };
 
 // One message, with the descriptors of the socket for the Reply and, where there is `dataBytes`, of the file
 // or samples.
 struct Request {
     Operation operation = Operation::decodeFile;
     PixelLayout layout;             // of samples to encode
-    PixelLimits limits{};           // of decoding
+    PixelLimits limits{};           // of decoding; of a mesh its bytes alone
     std::uint64_t dataBytes = 0;    // beside the message
     std::uint64_t memoryBytes = 0;  // that the work may take
     std::uint32_t seconds = 0;      // of processor time that it may take
