@@ -57,6 +57,10 @@ TEST(Help, WinsOverOtherMistakes) {
 
 TEST(Help, RenderHasEveryOption) {
     const std::set<std::string> expected = {"--rig",
+                                            "--animation",
+                                            "--time",
+                                            "--frames",
+                                            "--fps",
                                             "--light",
                                             "--env",
                                             "--env-intensity",
