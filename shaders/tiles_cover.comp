@@ -26,5 +26,5 @@ void main() {
     for (uint y = low.y; y < high.y; ++y) {
         for (uint x = low.x; x < high.x; ++x) covered += texelFetch(triangles, ivec2(x, y), 0).x != 0u ? 1u : 0u;
     }
-    states[tile] = AtlasTileState(covered, 0u, covered > 0u ? 0u : TILE_UNNEEDED, 0u, 0u, 0u);
+    states[tile] = AtlasTileState(covered, 0u, covered > 0u ? 0u : TILE_UNNEEDED, 0u, 0u, 0u, uvec2[2](uvec2(0u), uvec2(0u)));
 }

@@ -13,5 +13,8 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 void main() {
-    if (gl_GlobalInvocationID.x < push.tileCount) states[gl_GlobalInvocationID.x].step = TILE_UNNEEDED;
+    uint tile = gl_GlobalInvocationID.x;
+    if (tile >= push.tileCount) return;
+    states[tile].step = TILE_UNNEEDED;
+    states[tile].needed[0] = states[tile].needed[1] = uvec2(0u);
 }

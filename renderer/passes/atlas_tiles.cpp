@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint32_t kNeighbours = 2;
 
 struct GrowPush {
-    std::uint32_t tileCount, step, level, axis, shift, finerShift;
+    std::uint32_t tileCount, step, level, axis, shift, finerShift, turn;
 };
 
 void grow(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene, const AtlasTiles& tiles,
@@ -120,18 +120,23 @@ void recordSeenTiles(gpu::Device& device, gpu::Commands& commands, const SceneBu
 
 void recordNeededTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene, int taps,
                        AtlasTiles& tiles) {
+    std::uint32_t turn = 0;
+    const auto add = [&](std::uint32_t step, std::uint32_t level, std::uint32_t axis, std::uint32_t shift,
+                         std::uint32_t finer) {
+        grow(device, commands, scene, tiles, taps, {tiles.count, step, level, axis, shift, finer, turn});
+        turn = 1 - turn;
+    };
     const std::uint32_t coarsest = tiles.shifts.empty() ? 0 : tiles.shifts.back();
-    if (coarsest > 0)
-        grow(device, commands, scene, tiles, taps, {tiles.count, tiles.lookups(), 0, kNeighbours, coarsest, 0});
+    if (coarsest > 0) add(tiles.lookups(), 0, kNeighbours, coarsest, 0);
     for (std::uint32_t level = tiles.levels(); level-- > 0;) {
         const std::uint32_t shift = tiles.shifts[level], finer = tiles.finerShift(level);
-        recordSeamTiles(device, commands, scene.seams, tiles, tiles.level(level), shift);
-        grow(device, commands, scene, tiles, taps, {tiles.count, tiles.scratch(level), level, 1, shift, finer});
-        grow(device, commands, scene, tiles, taps, {tiles.count, tiles.scratch(level) + 1, level, 0, shift, finer});
+        recordSeamTiles(device, commands, scene.seams, tiles, tiles.level(level), shift, turn);
+        add(tiles.scratch(level), level, 1, shift, finer);
+        add(tiles.scratch(level) + 1, level, 0, shift, finer);
     }
-    recordSeamTiles(device, commands, scene.seams, tiles, tiles.lit(), 0);
+    recordSeamTiles(device, commands, scene.seams, tiles, tiles.lit(), 0, turn);
     // Neighbours are all that bilinear lookups of probes reach.
-    grow(device, commands, scene, tiles, taps, {tiles.count, tiles.probes(), 0, kNeighbours, 0, 0});
+    add(tiles.probes(), 0, kNeighbours, 0, 0);
     listTiles(device, commands, tiles);
 }
 

@@ -56,7 +56,7 @@ AtlasTiles recordCoveredTiles(gpu::Device& device, gpu::Commands& commands, cons
 void recordSeenTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                      const gpu::Buffer& seenTriangles, AtlasTiles& tiles);
 
-// From what is seen and from entry points to all that is needed for it. taps: as recordDiffusion has them.
+// From what is seen and from entry points, tile by tile, to all that is needed for it, texel by texel. taps: as recordDiffusion has them.
 void recordNeededTiles(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene, int taps,
                        AtlasTiles& tiles);
 

@@ -12,7 +12,7 @@ struct CountPush {
 };
 
 struct TilesPush {
-    std::uint32_t count, step, shift;
+    std::uint32_t count, step, shift, turn;
 };
 
 // One invocation for each texel of a list; the push constants begin with its length.
@@ -46,9 +46,9 @@ void recordGutterStretch(gpu::Device& device, gpu::Commands& commands, const Sea
 }
 
 void recordSeamTiles(gpu::Device& device, gpu::Commands& commands, const SeamLists& seams, const AtlasTiles& tiles,
-                     std::uint32_t step, std::uint32_t shift) {
+                     std::uint32_t step, std::uint32_t shift, std::uint32_t turn) {
     dispatchSeams(device, commands, seams, shift, "tiles_seams.comp",
-                  {{"AtlasChartBuffer", tiles.charts}, {"TileStateBuffer", tiles.states}}, TilesPush{0, step, shift});
+                  {{"AtlasChartBuffer", tiles.charts}, {"TileStateBuffer", tiles.states}}, TilesPush{0, step, shift, turn});
 }
 
 void recordSeams(gpu::Device& device, gpu::Commands& commands, const SeamLists& seams, const gpu::ImageView& light,

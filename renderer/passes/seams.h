@@ -14,9 +14,10 @@ void recordGutterTiles(gpu::Device& device, gpu::Commands& commands, const SeamL
 void recordGutterStretch(gpu::Device& device, gpu::Commands& commands, const SeamLists& seams, const AtlasTiles& tiles,
                          const SurfaceImages& surface);
 
-// Makes the tiles needed at `step` at which gutters of the tiles needed before go on, at 1/2^shift of the resolution.
+// Makes the tiles needed at `step` at which gutters needed before go on, at 1/2^shift of the resolution. turn: see
+// AtlasTileState::needed.
 void recordSeamTiles(gpu::Device& device, gpu::Commands& commands, const SeamLists& seams, const AtlasTiles& tiles,
-                     std::uint32_t step, std::uint32_t shift);
+                     std::uint32_t step, std::uint32_t shift, std::uint32_t turn);
 
 // Fills the gutters of an image of light (rgb; a: island) at 1/2^shift of the atlas' resolution.
 void recordSeams(gpu::Device& device, gpu::Commands& commands, const SeamLists& seams, const gpu::ImageView& light,

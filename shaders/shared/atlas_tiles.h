@@ -31,6 +31,8 @@ struct AtlasTileState {
     uint step;     // how early the tile is needed: see passes/atlas_tiles.h
     // Largest covariance in texels² of a Gaussian of 1 mm²: along u, along v, and between them, as the bits of floats.
     uint perMmU, perMmV, perMmMixed;
+    // Which of its texels are needed so far, row by row, a bit each; steps of growth read one and write the other in turns.
+    uvec2 needed[2];
 };
 
 // A texel beyond the border of a UV island, and the place on another island, or further on the same one, that lies there on
