@@ -18,7 +18,6 @@
 #include "renderer/passes/environment.h"
 #include "renderer/passes/environment_visibility.h"
 #include "renderer/passes/resources.h"
-#include "renderer/scene/environment_clusters.h"
 #include "renderer/scene/light.h"
 
 namespace cutis {
@@ -48,7 +47,7 @@ struct FrameContext {
 
     // Made before the frame
     EnvironmentMaps environmentMaps;
-    std::vector<EnvironmentCluster> clusters;
+    SkyDirections sky;
     gpu::Buffer environmentSettings;
     double proxyError = 0;  // metres by which the sky's occluders may stand off the meshes
     Atlas atlas;

@@ -139,7 +139,14 @@ void makeEnvironmentMaps(FrameContext& frame) {
                                                  skinLayers(*frame.input->scene, frame.geometry));
 }
 
-void makeSkyClusters(FrameContext& frame) { frame.clusters = clusterEnvironment(*frame.lighting.environment); }
+void makeSkyDirections(FrameContext& frame) {
+    const Environment& environment = *frame.lighting.environment;
+    frame.sky.parts = visibilityDirections(environment, shared::VISIBILITY_DIRECTIONS, frame.settings->seed);
+    std::vector<glm::dvec3> directions;
+    for (const VisibilityDirection& part : frame.sky.parts) directions.push_back(part.direction);
+    // Shares do not depend on how strong the light is.
+    frame.sky.arriving = fluxPerDirection(clusterEnvironment(environment), directions, 0, 1);
+}
 
 void uploadEnvironmentSettings(FrameContext& frame) {
     const EnvironmentSettings& settings = frame.input->rig.environment;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/frame/renderer.h"
+#include "renderer/scene/environment_clusters.h"
 #include "renderer/scene/environment_samples.h"
 #include "renderer/scene/light.h"
 
@@ -25,6 +26,13 @@ struct Lighting {
     int splitSamples = 0;
 };
 
+// The directions in which the sky's visibility is found and what arrives around each, in the same order; neither turned nor
+// dimmed.
+struct SkyDirections {
+    std::vector<VisibilityDirection> parts;
+    std::vector<DirectionalFlux> arriving;
+};
+
 // Fills frame.lighting from the rig and the environment of the input. Without pruning, what is missing is there and
 // black, so that every pass runs and nothing changes.
 void readLighting(FrameContext& frame);
@@ -32,7 +40,7 @@ void readLighting(FrameContext& frame);
 // Rows of the pass table: what shaders read of it.
 void uploadLightSamples(FrameContext& frame);
 void makeEnvironmentMaps(FrameContext& frame);
-void makeSkyClusters(FrameContext& frame);
+void makeSkyDirections(FrameContext& frame);
 void uploadEnvironmentSettings(FrameContext& frame);
 
 }  // namespace cutis

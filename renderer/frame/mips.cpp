@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <glm/glm.hpp>
@@ -59,17 +60,27 @@ void halve16(const std::uint16_t* from[4], std::uint16_t* to) {
     }
 }
 
+// Between half floats from 0 to 1 and floats, in a few operations where GLM takes any value apart: a half's bits, moved to
+// a float's place, are those of a float whose exponent is less by 127 - 15 = 112.
+float fromHalf(std::uint16_t half) {
+    return std::bit_cast<float>(std::uint32_t(half) << 13) * 0x1p112f;
+}
+std::uint16_t toHalf(float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(value * 0x1p-112f);
+    return static_cast<std::uint16_t>((bits + 0xfff + (bits >> 13 & 1)) >> 13);  // ties to even
+}
+
 // A unit vector from its encoded x and y, and back. Shorter or longer ones in the file are made unit
 // (glTF 2.0, 3.9.3).
 glm::vec3 decodeNormal(const std::uint16_t* from) {
-    const glm::vec2 xy(glm::unpackHalf1x16(from[0]) * 2 - 1, glm::unpackHalf1x16(from[1]) * 2 - 1);
+    const glm::vec2 xy(fromHalf(from[0]) * 2 - 1, fromHalf(from[1]) * 2 - 1);
     return {xy, std::sqrt(std::max(1 - glm::dot(xy, xy), 0.0f))};
 }
 
 void encodeNormal(const glm::vec3& n, std::uint16_t* to) {
     const float length = glm::length(n);
     const glm::vec2 xy = length > 0 ? glm::vec2(n) / length : glm::vec2(0);
-    for (int c = 0; c < 2; ++c) to[c] = glm::packHalf1x16(xy[c] * 0.5f + 0.5f);
+    for (int c = 0; c < 2; ++c) to[c] = toHalf(xy[c] * 0.5f + 0.5f);
 }
 
 void halveNormals(const std::uint16_t* from[4], std::uint16_t* to) {

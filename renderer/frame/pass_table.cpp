@@ -183,17 +183,13 @@ void environmentVisibilityRow(FrameContext& frame) {
                                 .mapSize = kVisibilityMapSize,
                                 .clearance = 2 * static_cast<float>(frame.proxyError)};
     const EnvironmentSettings& settings = frame.input->rig.environment;
-    std::vector<glm::dvec3> directions;
     std::vector<glm::vec4> parts;  // of the sky
-    for (const VisibilityDirection& part : visibilityDirections(
-             *frame.lighting.environment, shared::VISIBILITY_DIRECTIONS, frame.settings->seed)) {
-        directions.push_back(rotateAboutY(part.direction, settings.rotation));
-        parts.emplace_back(directions.back(), part.solidAngle);
+    for (const VisibilityDirection& part : frame.sky.parts) {
+        parts.emplace_back(rotateAboutY(part.direction, settings.rotation), part.solidAngle);
     }
     std::vector<shared::EnvironmentDirection> arriving;
-    // Shares do not depend on how strong the light is.
-    for (const DirectionalFlux& from : fluxPerDirection(frame.clusters, directions, settings.rotation, 1)) {
-        arriving.push_back({glm::vec3(from.flux), glm::vec3(from.direction)});
+    for (const DirectionalFlux& from : frame.sky.arriving) {
+        arriving.push_back({glm::vec3(from.flux), glm::vec3(rotateAboutY(from.direction, settings.rotation))});
     }
     frame.visibility = recordEnvironmentVisibility(*frame.device, *frame.commands, input, parts);
     recordEnvironmentOcclusion(*frame.device, *frame.commands, input, parts, arriving, frame.visibility);
@@ -252,7 +248,7 @@ void compositeRow(FrameContext& frame) {
 void forgetOccluders(FrameContext& frame) { frame.scene.buffers.proxyIndices = {}; }
 void forgetProfiles(FrameContext& frame) { frame.scene.buffers.gaussians = {}; }
 void forgetEnvironmentMaps(FrameContext& frame) { frame.environmentMaps = {}; }
-void forgetSkyClusters(FrameContext& frame) { frame.clusters = {}; }
+void forgetSkyDirections(FrameContext& frame) { frame.sky = {}; }
 void forgetEnvironmentSettings(FrameContext& frame) { frame.environmentSettings = {}; }
 void forgetOppositeVertices(FrameContext& frame) { frame.oppositeVertices = {}; }
 void forgetViewBuffers(FrameContext& frame) { frame.viewTile = {}; }
@@ -278,8 +274,8 @@ std::vector<PassRow> rowsBeforeTheFrame() {
         {.name = "environment_maps", .phase = Phase::alone, .need = Need::environment,
          .inputs = {I::environment, I::skinLayer}, .reads = {}, .writes = {R::environmentMaps},
          .record = makeEnvironmentMaps, .forget = forgetEnvironmentMaps},
-        {.name = "sky_clusters", .phase = Phase::alone, .need = Need::environment, .inputs = {I::environment},
-         .reads = {}, .writes = {R::skyClusters}, .record = makeSkyClusters, .forget = forgetSkyClusters},
+        {.name = "sky_directions", .phase = Phase::alone, .need = Need::environment, .inputs = {I::environment},
+         .reads = {}, .writes = {R::skyDirections}, .record = makeSkyDirections, .forget = forgetSkyDirections},
         {.name = "environment_settings", .phase = Phase::upload, .need = Need::environment,
          .inputs = {I::environmentRotation, I::environmentPower}, .reads = {R::environmentMaps},
          .writes = {R::environmentSettings}, .record = uploadEnvironmentSettings, .forget = forgetEnvironmentSettings},
@@ -340,7 +336,7 @@ std::vector<PassRow> rowsOfTheFrame() {
          .record = neededTexelsRow},
         {.name = "environment_visibility", .phase = Phase::frame, .need = Need::environment,
          .inputs = {I::environment, I::environmentRotation, I::groupsSeen, I::materials},
-         .reads = {R::meshes, R::draws, R::ranges, R::textures, R::occluders, R::skyClusters},
+         .reads = {R::meshes, R::draws, R::ranges, R::textures, R::occluders, R::skyDirections},
          .readsIf = {R::surface, R::tiles}, .writes = {R::visibility}, .record = environmentVisibilityRow,
          .forget = forgetVisibility},
         {.name = "irradiance", .phase = Phase::frame, .need = Need::litSkin, .inputs = {I::skinLayer, I::skinMix},

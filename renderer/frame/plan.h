@@ -72,7 +72,7 @@ inline constexpr int kInputCount = 21;
 // What rows hand to one another.
 enum class Resource {
     // Made before the frame
-    environmentMaps, environmentSettings, skyClusters, meshes, occluders, textures, materials, layout, draws, ranges, profiles,
+    environmentMaps, environmentSettings, skyDirections, meshes, occluders, textures, materials, layout, draws, ranges, profiles,
     stretch, seams, oppositeVertices, lights, viewBuffers, target,
     // Written by passes
     surface, seen, lightMaps, thickness, tiles, visibility, irradiance, levels, exitance, picture

@@ -51,7 +51,7 @@ const char* nameOf(Input input) {
 }
 
 const char* nameOf(Resource resource) {
-    constexpr const char* kNames[] = {"filtered environment", "environment settings", "clusters of the environment", "meshes", "occluders of the sky",
+    constexpr const char* kNames[] = {"filtered environment", "environment settings", "directions of the sky", "meshes", "occluders of the sky",
                                       "textures", "materials", "atlas layout", "draws", "ranges of draws", "profiles", "stretch", "seams", "opposite sides",
                                       "lights", "view buffers", "picture's memory", "surface", "seen triangles",
                                       "light maps", "thickness", "needed texels", "visibility of the sky", "irradiance",
