@@ -247,6 +247,9 @@ Bounds headOf(const Scene& scene, const std::vector<int>& nodes, bool skinOnly) 
 }  // namespace
 
 void prepareScene(Scene& scene) {
+    // Those found before may have been of other nodes.
+    scene.characters.clear();
+    scene.nodeCharacter.clear();
     updateWorldTransforms(scene);
     computeBounds(scene);
     findCharacters(scene);
@@ -258,7 +261,7 @@ void computeBounds(Scene& scene) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Bounds bounds = boundsOf(scene, int(i), false);
         scene.bounds.extend(bounds);
-        const int character = scene.characters.empty() ? -1 : scene.nodeCharacter[i];
+        const int character = i < scene.nodeCharacter.size() ? scene.nodeCharacter[i] : -1;
         if (character >= 0) scene.characters[character].bounds.extend(bounds);
     }
 }
