@@ -36,6 +36,7 @@ LightSampler::LightSampler(const Rig& rig, const glm::dvec3& origin) {
         one.lights[0].samples = 1;  // the only sample is the light's centre
         Placed placed{light, sampleLights(one).at(0), {}, {}};
         placed.whole.position -= origin;
+        placed.whole.radius = 0;  // what is sampled are points, not pieces
         const RectAxes axes = rectAxes(light.direction);
         placed.x = axes.x * (light.type == LightType::rect ? 0.5 * light.size.x : light.radius);
         placed.y = axes.y * (light.type == LightType::rect ? 0.5 * light.size.y : light.radius);

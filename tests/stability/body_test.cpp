@@ -53,7 +53,7 @@ std::vector<Extreme> thicknesses() {
                  builder.addObject("slab", front, skin);
                  return inLight(pictureOf(builder), {directionalLight("behind", {0, 0, 1}, 1)});
              },
-             Bounds3::atMost(1 / 3.14159 + 1e-3)});
+             Bounds3::atMost(1.01 / 3.14159)});
     }
     return cases;
 }
