@@ -7,6 +7,7 @@
 #include "renderer/scene/gltf_writer.h"
 #include "renderer/scene/picture.h"
 #include "tests/cli/program.h"
+#include "tests/support/pictures.h"
 #include "tests/support/walking_body.h"
 
 namespace cutis::test {
@@ -26,14 +27,6 @@ class Frames : public testing::Test {
     TemporaryFolder folder_;
     std::string scene_ = writeWalkingBody(folder_.path()).string();
 };
-
-double worstDifference(const Picture& a, const Picture& b) {
-    double worst = 0;
-    EXPECT_EQ(a.values.size(), b.values.size());
-    for (std::size_t i = 0; i < b.values.size(); ++i)
-        worst = std::max<double>(worst, std::abs(a.values[i] - b.values[i]));
-    return worst;
-}
 
 // Frame 6 of a range is what --time 6/24 shows, and the files are named for their frames.
 TEST_F(Frames, ARangeIsOneFileAFrame) {

@@ -9,18 +9,11 @@
 #include "tests/frame/small_scene.h"
 #include "tests/support/figure.h"
 #include "tests/support/process.h"
+#include "tests/support/pictures.h"
 #include "tests/support/walking_body.h"
 
 namespace cutis::test {
 namespace {
-
-double worstDifference(const Picture& a, const Picture& b) {
-    double worst = 0;
-    EXPECT_EQ(a.values.size(), b.values.size());
-    for (std::size_t i = 0; i < b.values.size(); ++i)
-        worst = std::max<double>(worst, std::abs(a.values[i] - b.values[i]));
-    return worst;
-}
 
 double rmsDifference(const Picture& a, const Picture& b) {
     double sum = 0;

@@ -1,5 +1,6 @@
 #include "tests/support/pictures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -26,6 +27,17 @@ double relativeL2(const Picture& picture, const Picture& reference) {
                 ratio.add(valueAt(picture, x, y, c) - expected, expected);
             }
     return ratio.value();
+}
+
+double worstDifference(const Picture& a, const Picture& b) {
+    if (a.values.size() != b.values.size()) throw std::runtime_error("pictures of different sizes");
+    double worst = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+        const double difference = std::abs(double(a.values[i]) - b.values[i]);
+        if (std::isnan(difference)) return difference;  // which no limit holds for
+        worst = std::max(worst, difference);
+    }
+    return worst;
 }
 
 void addPicture(Picture& sum, const Picture& addend) {

@@ -15,6 +15,8 @@ glm::dvec3 rgbAt(const Picture& picture, int x, int y);
 
 // ‖picture - reference‖ / ‖reference‖ over the first three channels of all pixels. Throws when sizes differ.
 double relativeL2(const Picture& picture, const Picture& reference);
+// The largest difference of two values, all channels; not a number where one is. Throws when sizes differ.
+double worstDifference(const Picture& a, const Picture& b);
 // Adds `addend` to `sum`, channel by channel. An empty `sum` becomes a copy.
 void addPicture(Picture& sum, const Picture& addend);
 // Values that are infinite or not a number.
