@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "renderer/core/error.h"
+#include "renderer/core/warn_once.h"
 #include "renderer/frame/atlas_packing.h"
+#include "renderer/frame/spans.h"
 
 namespace cutis {
 namespace {
@@ -30,35 +33,78 @@ double weightedMedian(std::vector<std::pair<double, double>>& valuesAndWeights) 
     return weightedQuantile(valuesAndWeights, 0.5);
 }
 
-// Lengths of the surface along u and v, in mm per unit of uv, on average over a chart's triangles.
-glm::dvec2 meanStretch(const Geometry& geometry, const std::vector<int>& draws, double mmPerUnit) {
-    glm::dvec2 sum(0);
-    double area = 0;                                    // twice that of the triangles in uv
-    std::vector<std::pair<double, double>> densities;  // mm per unit of uv, area of that density
-    for (int d : draws) {
-        const GeometryDraw& draw = geometry.draws[d];
-        for (std::uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3) {
-            const std::uint32_t* t = &geometry.indices[i];
-            const glm::dvec2 a = geometry.attributes[t[0]].uv0;
-            const glm::dvec2 e1 = glm::dvec2(geometry.attributes[t[1]].uv0) - a;
-            const glm::dvec2 e2 = glm::dvec2(geometry.attributes[t[2]].uv0) - a;
-            const double det = e1.x * e2.y - e1.y * e2.x;
-            if (!(std::abs(det) > 1e-18)) continue;
-            const glm::dvec3 p = geometry.positions[t[0]];
-            const glm::dvec3 p1 = (glm::dvec3(geometry.positions[t[1]]) - p) * mmPerUnit;
-            const glm::dvec3 p2 = (glm::dvec3(geometry.positions[t[2]]) - p) * mmPerUnit;
-            const glm::dvec3 du = (p1 * e2.y - p2 * e1.y) / det, dv = (p2 * e1.x - p1 * e2.x) / det;
-            const double weight = std::abs(det);
-            sum += weight * glm::dvec2(glm::dot(du, du), glm::dot(dv, dv));
-            area += weight;
-            densities.emplace_back(std::sqrt(glm::length(glm::cross(p1, p2)) / weight), weight);
+// How a set of triangles lies in the layout, by their area there.
+struct Stretch {
+    glm::dvec2 squares{0};                              // Σ of mm² per unit² along u and v
+    double area = 0;                                    // twice that of the triangles in the layout
+    std::vector<std::pair<double, double>> densities;  // mm per unit, area of that density
+
+    void add(const Geometry& geometry, std::uint32_t triangle, double mmPerUnit) {
+        const std::uint32_t* t = &geometry.indices[std::size_t(triangle) * 3];
+        const glm::dvec2 a = geometry.layoutUv[t[0]];
+        const glm::dvec2 e1 = glm::dvec2(geometry.layoutUv[t[1]]) - a, e2 = glm::dvec2(geometry.layoutUv[t[2]]) - a;
+        const double det = cross2(e1, e2);
+        if (!(std::abs(det) > 1e-18)) return;
+        const glm::dvec3 p = geometry.positions[t[0]];
+        const glm::dvec3 p1 = (glm::dvec3(geometry.positions[t[1]]) - p) * mmPerUnit;
+        const glm::dvec3 p2 = (glm::dvec3(geometry.positions[t[2]]) - p) * mmPerUnit;
+        const glm::dvec3 du = (p1 * e2.y - p2 * e1.y) / det, dv = (p2 * e1.x - p1 * e2.x) / det;
+        const double weight = std::abs(det);
+        squares += weight * glm::dvec2(glm::dot(du, du), glm::dot(dv, dv));
+        area += weight;
+        densities.emplace_back(std::sqrt(glm::length(glm::cross(p1, p2)) / weight), weight);
+    }
+
+    // Lengths of the surface along u and v, in mm per unit. Their ratio shapes the rectangle; its size gives the wanted size
+    // to the median texel, which on a layout made for faces is one of the face.
+    glm::dvec2 mmPerUv() {
+        if (!(area > 0)) return glm::dvec2(1);
+        const glm::dvec2 rms = glm::sqrt(squares / area);
+        return rms * (weightedMedian(densities) / std::sqrt(std::max(rms.x * rms.y, 1e-30)));
+    }
+};
+
+// By how much an island's own texels are made finer than those of its chart: where they would be more than kUneven times as
+// long or as short otherwise.
+glm::dvec2 evenScale(Stretch& island, const glm::dvec2& mmPerUv) {
+    constexpr double kUneven = 6;
+    if (!(island.area > 0)) return glm::dvec2(1);
+    const glm::dvec2 ratio = island.mmPerUv() / mmPerUv;
+    const bool uneven = std::max(ratio.x, ratio.y) > kUneven || std::min(ratio.x, ratio.y) < 1 / kUneven;
+    return uneven && ratio.x > 0 && ratio.y > 0 ? ratio : glm::dvec2(1);
+}
+
+IslandShape islandShape(const Geometry& geometry, const SkinMesh& mesh, std::uint32_t number) {
+    const UvIsland& island = mesh.islands[number];
+    IslandShape shape{.island = number, .uvMin = glm::dvec2(std::numeric_limits<double>::infinity()),
+                      .uvMax = glm::dvec2(-std::numeric_limits<double>::infinity()), .continued = island.continued,
+                      .overlaps = island.overlaps};
+    for (const std::uint32_t t : island.triangles) {
+        for (int corner = 0; corner < 3; ++corner) {
+            const glm::dvec2 uv = geometry.layoutUv[geometry.indices[std::size_t(t) * 3 + corner]];
+            shape.uvMin = glm::min(shape.uvMin, uv);
+            shape.uvMax = glm::max(shape.uvMax, uv);
         }
     }
-    if (!(area > 0)) return glm::dvec2(1);
-    // Their ratio shapes the rectangle; its size gives the wanted size to the median texel, which on a layout made for
-    // faces is one of the face.
-    const glm::dvec2 rms = glm::sqrt(sum / area);
-    return rms * (weightedMedian(densities) / std::sqrt(std::max(rms.x * rms.y, 1e-30)));
+    return shape;
+}
+
+void warnOfLayout(const Scene& scene, const AtlasChart& chart, const ChartShape& shape) {
+    std::size_t overlapping = 0, uneven = 0;
+    for (const IslandShape& island : shape.islands) {
+        overlapping += island.overlaps;
+        uneven += island.scale != glm::dvec2(1);
+    }
+    const std::string skin = "skin \"" + scene.materials[chart.material].name + "\" of \"" +
+                             scene.characters[chart.character].name + "\": ";
+    const std::string of = " of " + std::to_string(shape.islands.size()) + " islands of its texture coordinates ";
+    if (overlapping > 0) {
+        warnOnce(skin + std::to_string(overlapping) + of + "lie upon one another: each gets a place of its own");
+    }
+    if (uneven > 0) {
+        warnOnce(skin + std::to_string(uneven) + of + "have more than six times or less than a sixth of the detail of the others: " +
+                 "they are evened out");
+    }
 }
 
 std::vector<AtlasChart> collectCharts(const Scene& scene, const SkinMesh& mesh, Geometry& geometry,
@@ -73,24 +119,30 @@ std::vector<AtlasChart> collectCharts(const Scene& scene, const SkinMesh& mesh, 
         for (int d : draws) geometry.drawInfos[d].chart = static_cast<std::uint32_t>(charts.size());
         charts.push_back({.character = key.first, .material = key.second});
         ChartShape shape;
-        shape.mmPerUv = meanStretch(geometry, draws, mmPerUnitOf(scene, key.second));
         shape.texelsPerMm = options.size > 0 ? 1 : 1 / options.mmPerTexelWanted[key.first];
         if (!options.reachMm.empty()) shape.reachMm = options.reachMm[key.second];
         shapes.push_back(shape);
     }
     for (std::uint32_t i = 0; i < mesh.islands.size(); ++i) {
-        IslandShape island{.island = i, .uvMin = glm::dvec2(std::numeric_limits<double>::infinity()),
-                           .uvMax = glm::dvec2(-std::numeric_limits<double>::infinity()),
-                           .continued = mesh.islands[i].continued};
-        for (const std::uint32_t t : mesh.islands[i].triangles) {
-            for (int corner = 0; corner < 3; ++corner) {
-                const glm::dvec2 uv = geometry.attributes[geometry.indices[std::size_t(t) * 3 + corner]].uv0;
-                island.uvMin = glm::min(island.uvMin, uv);
-                island.uvMax = glm::max(island.uvMax, uv);
+        const std::uint32_t first = mesh.islands[i].triangles.front();
+        const std::uint32_t chart = geometry.drawInfos[geometry.triangleDraws[first]].chart;
+        shapes[chart].islands.push_back(islandShape(geometry, mesh, i));
+    }
+    for (std::size_t c = 0; c < charts.size(); ++c) {
+        const double mmPerUnit = mmPerUnitOf(scene, charts[c].material);
+        Stretch whole;
+        std::vector<Stretch> each(shapes[c].islands.size());
+        for (std::size_t k = 0; k < each.size(); ++k) {
+            for (const std::uint32_t t : mesh.islands[shapes[c].islands[k].island].triangles) {
+                whole.add(geometry, t, mmPerUnit);
+                each[k].add(geometry, t, mmPerUnit);
             }
         }
-        const std::uint32_t first = mesh.islands[i].triangles.front();
-        shapes[geometry.drawInfos[geometry.triangleDraws[first]].chart].islands.push_back(island);
+        shapes[c].mmPerUv = whole.mmPerUv();
+        for (std::size_t k = 0; k < each.size(); ++k) {
+            shapes[c].islands[k].scale = evenScale(each[k], shapes[c].mmPerUv);
+        }
+        warnOfLayout(scene, charts[c], shapes[c]);
     }
     return charts;
 }
@@ -121,8 +173,8 @@ void placeVertices(const Geometry& geometry, const SkinMesh& mesh, const std::ve
             for (const std::uint32_t t : mesh.islands[island.island].triangles) {
                 for (int i = 0; i < 3; ++i) {
                     const std::uint32_t v = geometry.indices[std::size_t(t) * 3 + i];
-                    const glm::dvec2 uv = glm::dvec2(geometry.attributes[v].uv0) - island.uvMin;
-                    atlas.vertices[v].texel = glm::vec2(corner + uv * shape.texelsPerUv);
+                    const glm::dvec2 uv = glm::dvec2(geometry.layoutUv[v]) - island.uvMin;
+                    atlas.vertices[v].texel = glm::vec2(corner + uv * shape.texelsPerUv * island.scale);
                     atlas.vertices[v].island = static_cast<float>(island.island + 1);
                 }
             }

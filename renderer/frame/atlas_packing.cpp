@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "shaders/shared/atlas_tiles.h"
 
@@ -18,6 +19,10 @@ constexpr int kLeastGutter = 3;
 // resolution then belongs to one of them.
 constexpr int kGrid = 1 << shared::COARSEST_LEVEL;
 constexpr double kLargestSide = 1 << 16;  // texels of an island that is worth placing
+// A layout as it came takes up to this many times the texels of its islands' rectangles.
+constexpr double kMostEmpty = 4;
+// Of more islands than this the tightest packing takes too long.
+constexpr std::size_t kManyIslands = 4096;
 
 int cellsFor(double texels, int gutter) {
     return (std::max(static_cast<int>(std::ceil(texels)), 1) + 2 * gutter + kGrid - 1) / kGrid;
@@ -32,6 +37,27 @@ bool packRects(std::vector<stbrp_rect>& rects, int width, int height) {
     return stbrp_pack_rects(&context, rects.data(), static_cast<int>(rects.size())) != 0;
 }
 
+// Places rectangles in rows, high ones first: quick for any number of them. `width` holds the widest.
+void packRows(std::vector<stbrp_rect>& rects, int width) {
+    std::vector<stbrp_rect*> order;
+    for (stbrp_rect& rect : rects) order.push_back(&rect);
+    std::sort(order.begin(), order.end(), [](const stbrp_rect* a, const stbrp_rect* b) {
+        return a->h != b->h ? a->h > b->h : a->id < b->id;
+    });
+    int x = 0, y = 0, height = 0;
+    for (stbrp_rect* rect : order) {
+        if (x + rect->w > width) x = 0, y += height, height = 0;
+        rect->x = x, rect->y = y;
+        x += rect->w;
+        height = std::max(height, static_cast<int>(rect->h));
+    }
+}
+
+// The island's size in texels.
+glm::dvec2 texelsOf(const ChartShape& chart, const IslandShape& island) {
+    return (island.uvMax - island.uvMin) * chart.texelsPerUv * island.scale;
+}
+
 // Packs islands about square; returns the size of the rectangle that they take, in cells.
 glm::ivec2 packIslands(ChartShape& chart) {
     std::vector<stbrp_rect> rects;
@@ -39,7 +65,7 @@ glm::ivec2 packIslands(ChartShape& chart) {
     int widest = 1, height = 0;
     for (std::size_t i = 0; i < chart.islands.size(); ++i) {
         const IslandShape& island = chart.islands[i];
-        const glm::dvec2 texels = (island.uvMax - island.uvMin) * chart.texelsPerUv;
+        const glm::dvec2 texels = texelsOf(chart, island);
         stbrp_rect rect{};
         rect.id = static_cast<int>(i);
         rect.w = cellsFor(texels.x, island.gutter);
@@ -50,7 +76,11 @@ glm::ivec2 packIslands(ChartShape& chart) {
         rects.push_back(rect);
     }
     const int width = std::max(widest, static_cast<int>(std::ceil(std::sqrt(area))));
-    packRects(rects, width, height);  // one above the other they fit in any case
+    if (rects.size() > kManyIslands) {
+        packRows(rects, width);
+    } else {
+        packRects(rects, width, height);  // one above the other they fit in any case
+    }
     glm::ivec2 taken(1);
     for (const stbrp_rect& rect : rects) {
         IslandShape& island = chart.islands[rect.id];
@@ -60,19 +90,24 @@ glm::ivec2 packIslands(ChartShape& chart) {
     return taken;
 }
 
-// The layout as it came, with room around it.
-glm::ivec2 keepIslands(ChartShape& chart) {
+// The layout as it came, with room around it. Nothing where it does not serve.
+std::optional<glm::ivec2> keepIslands(ChartShape& chart) {
     glm::dvec2 low(1e300), high(-1e300);
     int gutter = kLeastGutter;
+    double held = 0;  // texels of the islands' rectangles
     for (const IslandShape& island : chart.islands) {
+        if (chart.islands.size() > 1 && (island.continued || island.overlaps || island.scale != glm::dvec2(1))) return {};
         low = glm::min(low, island.uvMin), high = glm::max(high, island.uvMax);
         gutter = std::max(gutter, island.gutter);
+        const glm::dvec2 texels = texelsOf(chart, island) + 2.0 * island.gutter;
+        held += texels.x * texels.y;
     }
+    const glm::dvec2 texels = (high - low) * chart.texelsPerUv, all = texels + 2.0 * gutter;
+    if (chart.islands.size() > 1 && all.x * all.y > kMostEmpty * held) return {};
     for (IslandShape& island : chart.islands) {
         island.place = (island.uvMin - low) * chart.texelsPerUv + double(gutter);
     }
-    const glm::dvec2 texels = (high - low) * chart.texelsPerUv;
-    return {cellsFor(texels.x, gutter), cellsFor(texels.y, gutter)};
+    return glm::ivec2(cellsFor(texels.x, gutter), cellsFor(texels.y, gutter));
 }
 
 // Sizes in cells of the charts' rectangles at that scale; none where one is too large to place.
@@ -81,15 +116,14 @@ std::vector<glm::ivec2> layOutCharts(std::vector<ChartShape>& charts, double sca
     for (ChartShape& chart : charts) {
         const double texelsPerMm = chart.texelsPerMm * scale;
         chart.texelsPerUv = chart.mmPerUv * texelsPerMm;
-        bool apart = false;
         for (IslandShape& island : chart.islands) {
-            const glm::dvec2 texels = (island.uvMax - island.uvMin) * chart.texelsPerUv;
+            const glm::dvec2 texels = texelsOf(chart, island);
             if (!(texels.x < kLargestSide) || !(texels.y < kLargestSide)) return {};
             const double most = std::min(chart.reachMm * texelsPerMm, 0.5 * std::sqrt(texels.x * texels.y));
             island.gutter = island.continued ? std::max(kLeastGutter, static_cast<int>(std::ceil(most))) : kLeastGutter;
-            apart |= island.continued && chart.islands.size() > 1;
         }
-        sizes.push_back(apart ? packIslands(chart) : keepIslands(chart));
+        const std::optional<glm::ivec2> kept = keepIslands(chart);
+        sizes.push_back(kept ? *kept : packIslands(chart));
     }
     return sizes;
 }

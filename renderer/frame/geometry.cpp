@@ -8,24 +8,43 @@
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
 #include "renderer/core/parallel.h"
+#include "renderer/core/warn_once.h"
+#include "renderer/frame/skin_layout.h"
 #include "renderer/scene/pose.h"
 
 namespace cutis {
 namespace {
 
+// Appends where the atlas has the vertices of a primitive of skin; parts are numbered on over all primitives.
+void appendLayout(Geometry& geometry, const Primitive& primitive, const SkinLayout& layout) {
+    if (layout.empty()) {
+        geometry.layoutUv.insert(geometry.layoutUv.end(), primitive.uv0.begin(), primitive.uv0.end());
+        geometry.layoutParts.resize(geometry.layoutUv.size(), 0);
+        return;
+    }
+    std::uint32_t before = 0;
+    for (const std::uint32_t part : geometry.layoutParts) before = std::max(before, part);
+    geometry.layoutUv.insert(geometry.layoutUv.end(), layout.uv.begin(), layout.uv.end());
+    for (const std::uint32_t part : layout.parts) geometry.layoutParts.push_back(before + 1 + part);
+}
+
 // Appends a primitive to the streams: what no pose changes, and room for the rest.
-void appendPrimitive(Geometry& geometry, const Primitive& primitive, std::uint32_t draw) {
+void appendPrimitive(Geometry& geometry, const Primitive& primitive, const SkinLayout& layout, std::uint32_t draw) {
     const auto base = static_cast<std::uint32_t>(geometry.positions.size());
-    geometry.positions.resize(base + primitive.positions.size());
-    for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+    const std::vector<std::uint32_t>& copies = geometry.draws[draw].copies = layout.copies;
+    const std::size_t own = primitive.positions.size();
+    geometry.positions.resize(base + own + copies.size());
+    for (std::size_t k = 0; k < own + copies.size(); ++k) {
+        const std::size_t i = k < own ? k : copies[k - own];
         shared::VertexAttributes a{};
         a.uv0 = primitive.uv0.empty() ? glm::vec2(0) : primitive.uv0[i];
         a.uv1 = primitive.uv1.empty() ? glm::vec2(0) : primitive.uv1[i];
         a.color = primitive.colors.empty() ? glm::vec4(1) : primitive.colors[i];
         geometry.attributes.push_back(a);
     }
-    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-        const std::uint32_t* t = &primitive.indices[i];
+    const std::vector<std::uint32_t>& indices = layout.empty() ? primitive.indices : layout.indices;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const std::uint32_t* t = &indices[i];
         geometry.indices.insert(geometry.indices.end(), {base + t[0], base + t[1], base + t[2]});
         geometry.triangleDraws.push_back(draw);
     }
@@ -53,6 +72,12 @@ void placeDraw(Geometry& geometry, GeometryDraw& draw, const Primitive& primitiv
         a.tangent = tangentLength > 0 ? glm::vec4(glm::vec3(t / tangentLength),
                                                   primitive.tangents[i].w * static_cast<float>(side))
                                       : glm::vec4(0);
+    }
+    const std::size_t own = draw.firstVertex + primitive.positions.size();
+    for (std::size_t k = 0; k < draw.copies.size(); ++k) {
+        geometry.positions[own + k] = geometry.positions[draw.firstVertex + draw.copies[k]];
+        geometry.attributes[own + k].normal = geometry.attributes[draw.firstVertex + draw.copies[k]].normal;
+        geometry.attributes[own + k].tangent = geometry.attributes[draw.firstVertex + draw.copies[k]].tangent;
     }
     if (draw.mirrored == (determinant < 0)) return;
     draw.mirrored = determinant < 0;
@@ -102,6 +127,15 @@ std::vector<GeometryDraw> collectDraws(const Scene& scene) {
     return draws;
 }
 
+// One a draw; those of what is not skin are empty.
+std::vector<SkinLayout> layOutDraws(const Scene& scene, const std::vector<GeometryDraw>& draws) {
+    std::vector<SkinLayout> layouts(draws.size());
+    parallelFor(draws.size(), [&](std::size_t k) {
+        if (draws[k].skin) layouts[k] = layOutSkin(scene.meshes[draws[k].mesh].primitives[draws[k].primitive]);
+    });
+    return layouts;
+}
+
 }  // namespace
 
 void followPose(const Scene& scene, Geometry& geometry) {
@@ -141,10 +175,12 @@ Geometry flattenScene(const Scene& scene) {
         indices += primitive.indices.size();
         draw.bounds = worldBounds(restOf(primitive), restWorlds[draw.node]);
         rest.extend(draw.bounds);
-        if (draw.skin && primitive.uv0.empty()) {
-            throw Error("cannot render skin", "it has no texture coordinates (TEXCOORD_0)",
-                        "mesh \"" + scene.meshes[draw.mesh].name + "\"");
-        }
+    }
+    const std::vector<SkinLayout> layouts = layOutDraws(scene, geometry.draws);
+    for (std::size_t k = 0; k < layouts.size(); ++k) {
+        vertices += layouts[k].copies.size();
+        if (layouts[k].remark.empty()) continue;
+        warnOnce("mesh \"" + scene.meshes[geometry.draws[k].mesh].name + "\" " + layouts[k].remark);
     }
     if (vertices > 0xfffffff0u || indices > 0xfffffff0u) {
         throw Error("scene too large", std::to_string(vertices) + " vertices and " + std::to_string(indices / 3) +
@@ -166,9 +202,10 @@ Geometry flattenScene(const Scene& scene) {
         GeometryDraw& draw = geometry.draws[k];
         const Primitive& primitive = scene.meshes[draw.mesh].primitives[draw.primitive];
         draw.firstVertex = static_cast<std::uint32_t>(geometry.positions.size());
-        draw.vertexCount = static_cast<std::uint32_t>(primitive.positions.size());
+        draw.vertexCount = static_cast<std::uint32_t>(primitive.positions.size() + layouts[k].copies.size());
         draw.firstIndex = static_cast<std::uint32_t>(geometry.indices.size());
-        appendPrimitive(geometry, primitive, static_cast<std::uint32_t>(k));
+        appendPrimitive(geometry, primitive, layouts[k], static_cast<std::uint32_t>(k));
+        if (draw.skin) appendLayout(geometry, primitive, layouts[k]);
         draw.indexCount = static_cast<std::uint32_t>(geometry.indices.size()) - draw.firstIndex;
         shared::DrawInfo info{};
         info.material = static_cast<std::uint32_t>(draw.material);
@@ -187,7 +224,9 @@ Geometry flattenScene(const Scene& scene) {
         geometry.receiverGroups[info.receiverGroup].restBounds.extend(draw.bounds);
         geometry.drawInfos.push_back(info);
         if (scene.animations.empty()) continue;
-        for (const glm::vec3& p : restOf(primitive)) {
+        const std::vector<glm::vec3>& positions = restOf(primitive);
+        for (std::size_t i = 0; i < draw.vertexCount; ++i) {
+            const glm::vec3 p = positions[i < positions.size() ? i : draw.copies[i - positions.size()]];
             geometry.restPositions.emplace_back(glm::dvec3(restWorlds[draw.node] * glm::dvec4(p, 1)) - geometry.origin);
         }
     }

@@ -17,6 +17,7 @@ struct GeometryDraw {
     int character = -1;  // index into Scene::characters
     std::uint32_t firstIndex = 0, indexCount = 0;
     std::uint32_t firstVertex = 0, vertexCount = 0;
+    std::vector<std::uint32_t> copies;  // the vertices of the primitive that its last ones repeat
     std::uint32_t firstProxyIndex = 0, proxyIndexCount = 0;  // see makeOcclusionProxies
     bool skin = false;
     bool mirrored = false;   // its transform turns triangles over, so they are stored the other way round
@@ -35,6 +36,8 @@ struct Geometry {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> restPositions;  // of the scene at rest; empty where nothing can move
     std::vector<shared::VertexAttributes> attributes;
+    std::vector<glm::vec2> layoutUv;  // a skin vertex: its place in the layout, for the atlas alone
+    std::vector<std::uint32_t> layoutParts;  // a skin vertex: those of different parts are of different islands
     std::vector<std::uint32_t> indices;        // global vertex numbers; skin triangles first
     std::vector<std::uint32_t> triangleDraws;  // per triangle
     std::vector<GeometryDraw> draws;           // skin first
@@ -46,7 +49,8 @@ struct Geometry {
     std::uint32_t probeCount = 0;  // vertices that are not skin
 };
 
-// Throws Error when the scene holds more than 2³² / 3 triangles or vertices, or skin without texture coordinates.
+// Skin is laid out for the atlas, with a warning where its texture coordinates do not serve (frame/skin_layout.h). Throws
+// Error when the scene holds more than 2³² / 3 triangles or vertices.
 Geometry flattenScene(const Scene& scene);
 
 // Puts the geometry of a scene into the pose that the scene is in now: positions, normals, tangents, bounds, hashes. All

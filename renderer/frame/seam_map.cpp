@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "renderer/core/parallel.h"
+#include "renderer/frame/spans.h"
 
 namespace cutis {
 namespace {
@@ -109,8 +110,6 @@ struct Grid {
     glm::ivec2 first(const glm::dvec2& low) const { return glm::max(glm::ivec2(glm::ceil(low / texel - 0.5)), 0); }
     glm::ivec2 last(const glm::dvec2& high) const { return glm::min(glm::ivec2(glm::floor(high / texel - 0.5)), size - 1); }
 };
-
-double cross2(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 glm::dvec2 texelOf(const Geometry& geometry, const Atlas& atlas, HalfEdge corner) {
     return atlas.vertices[geometry.indices[corner]].texel;

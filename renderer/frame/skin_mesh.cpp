@@ -2,25 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
+
+#include "renderer/frame/spans.h"
 
 namespace cutis {
 namespace {
 
 // Edges at which more triangles meet belong to no surface that light could follow.
 constexpr std::size_t kMostAtOneEdge = 16;
+constexpr int kOverlapCells = 1024;
 
 struct Key {
     glm::vec3 p;
     glm::vec2 uv;
     std::uint64_t owner;
+    std::uint32_t part;
     bool operator==(const Key&) const = default;
 };
 
 struct KeyHash {
     std::size_t operator()(const Key& k) const {
-        std::size_t h = k.owner;
+        std::size_t h = k.owner * 0x9e3779b97f4a7c15u + k.part;
         for (float f : {k.p.x, k.p.y, k.p.z, k.uv.x, k.uv.y}) {
             h = h * 0x9e3779b97f4a7c15u + std::hash<float>{}(f);
         }
@@ -39,8 +45,9 @@ std::vector<std::uint32_t> weldVertices(const Geometry& geometry, bool layout) {
         const auto character = static_cast<std::uint64_t>(draw.character);
         const std::uint64_t owner = layout ? character << 32 | static_cast<std::uint32_t>(draw.material) : character;
         for (std::uint32_t v = draw.firstVertex; v < draw.firstVertex + draw.vertexCount; ++v) {
-            const glm::vec2 uv = layout ? geometry.attributes[v].uv0 : glm::vec2(0);
-            weld[v] = first.try_emplace(Key{geometry.positions[v], uv, owner}, v).first->second;
+            const glm::vec2 uv = layout ? geometry.layoutUv[v] : glm::vec2(0);
+            const std::uint32_t part = layout ? geometry.layoutParts[v] : 0;
+            weld[v] = first.try_emplace(Key{geometry.positions[v], uv, owner, part}, v).first->second;
         }
     }
     return weld;
@@ -122,6 +129,42 @@ void findIslands(const Geometry& geometry, SkinMesh& mesh) {
         if (found.second) mesh.islands.emplace_back();
         mesh.islandOf[t] = found.first->second;
         mesh.islands[mesh.islandOf[t]].triangles.push_back(t);
+    }
+}
+
+// Islands that lie upon others, as far as a grid of kOverlapCells² places over the layout of their material shows.
+void findOverlaps(const Geometry& geometry, SkinMesh& mesh) {
+    struct Layout {
+        glm::dvec2 low{1e300}, high{-1e300};
+        std::vector<std::uint32_t> islands;
+    };
+    std::map<std::pair<int, int>, Layout> layouts;
+    const auto uvOf = [&](HalfEdge corner) { return glm::dvec2(geometry.layoutUv[geometry.indices[corner]]); };
+    for (std::uint32_t i = 0; i < mesh.islands.size(); ++i) {
+        const GeometryDraw& draw = geometry.draws[geometry.triangleDraws[mesh.islands[i].triangles.front()]];
+        Layout& layout = layouts[{draw.character, draw.material}];
+        layout.islands.push_back(i);
+        for (const std::uint32_t t : mesh.islands[i].triangles) {
+            for (HalfEdge h = t * 3; h < t * 3 + 3; ++h) {
+                layout.low = glm::min(layout.low, uvOf(h)), layout.high = glm::max(layout.high, uvOf(h));
+            }
+        }
+    }
+    for (const auto& [key, layout] : layouts) {
+        if (layout.islands.size() < 2) continue;
+        std::vector<std::uint32_t> owner(std::size_t(kOverlapCells) * kOverlapCells, kNoHalfEdge);
+        const glm::dvec2 scale = double(kOverlapCells) / glm::max(layout.high - layout.low, 1e-30);
+        for (const std::uint32_t island : layout.islands) {
+            for (const std::uint32_t t : mesh.islands[island].triangles) {
+                const glm::dvec2 a = (uvOf(t * 3) - layout.low) * scale, b = (uvOf(t * 3 + 1) - layout.low) * scale,
+                                 c = (uvOf(t * 3 + 2) - layout.low) * scale;
+                forEachCellWithin(a, b, c, glm::ivec2(kOverlapCells), [&](int x, int y) {
+                    std::uint32_t& first = owner[std::size_t(y) * kOverlapCells + x];
+                    if (first == kNoHalfEdge) first = island;
+                    if (first != island) mesh.islands[first].overlaps = mesh.islands[island].overlaps = true;
+                });
+            }
+        }
     }
 }
 
@@ -235,6 +278,7 @@ SkinMesh makeSkinMesh(const Geometry& geometry) {
     mesh.weld = weldVertices(geometry, true);
     joinEdges(geometry, weldVertices(geometry, false), mesh);
     findIslands(geometry, mesh);
+    findOverlaps(geometry, mesh);
     forEachEdge(geometry, mesh.weld, [&](const std::vector<HalfEdge>& edges) {
         if (edges.size() == 1) mesh.borders.push_back(edges[0]);
     });

@@ -14,10 +14,11 @@ namespace cutis {
 using HalfEdge = std::uint32_t;
 inline constexpr HalfEdge kNoHalfEdge = 0xffffffffu;
 
-// A connected part of a UV layout: triangles of one character and material that share vertices with equal uv.
+// A connected part of the layout: triangles of one character and material that share vertices of one place in it.
 struct UvIsland {
     std::vector<std::uint32_t> triangles;
     bool continued = false;  // somewhere the surface goes on beyond its border
+    bool overlaps = false;   // it lies upon another island of its character and material
 };
 
 // Part of an edge beyond which another triangle lies whose edge begins or ends elsewhere.

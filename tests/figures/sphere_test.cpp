@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 #include <ostream>
 #include <string>
 
+#include "tests/support/awkward_layouts.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/figure.h"
 #include "tests/support/pictures.h"
@@ -20,15 +22,30 @@ namespace {
 constexpr double kLux = 2;
 constexpr int kSize = 200;
 
+enum class Layout { plain, mirrored, bare, uneven };  // see tests/support/awkward_layouts.h
+
 struct Case {
     double radiusMm;
     double viewDegrees;  // between the direction to the light and the direction to the camera
     SphereMapping mapping;
+    Layout layout = Layout::plain;
 };
+
+Primitive ballOf(const Case& c) {
+    Primitive ball = makeSphere(c.radiusMm * kMm, c.mapping);
+    switch (c.layout) {
+        case Layout::mirrored: return mirrored(std::move(ball));
+        case Layout::bare: return bare(std::move(ball));
+        case Layout::uneven: return uneven(std::move(ball));
+        case Layout::plain: break;
+    }
+    return ball;
+}
 
 std::string nameOf(const Case& c) {
     return std::to_string(c.radiusMm).substr(0, 1) + "_mm_seen_at_" + std::to_string(int(c.viewDegrees)) +
-           "_degrees_" + (c.mapping == SphereMapping::latLong ? "lat_long" : "cube");
+           "_degrees_" + (c.mapping == SphereMapping::latLong ? "lat_long" : "cube") +
+           std::array{"", "_mirrored", "_bare", "_uneven"}[static_cast<std::size_t>(c.layout)];
 }
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -46,7 +63,7 @@ TEST_P(Sphere, FollowsItsClosedForm) {
     const glm::dvec3 toLight(std::cos(elevation), std::sin(elevation), 0);
     const glm::dvec3 eye = toLight * std::cos(view) + glm::dvec3(0, 0, 1) * std::sin(view);
     SceneBuilder builder;
-    builder.addObject("ball", makeSphere(c.radiusMm * kMm, c.mapping),
+    builder.addObject("ball", ballOf(c),
                       builder.addSkin(SceneBuilder::plainSkin()));
     builder.setOrthographicCamera(eye * (10 * c.radiusMm * kMm), {0, 0, 0}, 2.1 * c.radiusMm * kMm);
     RenderJob job{.scene = builder.scene(), .lights = {directionalLight("key", -toLight, kLux)}};
@@ -80,7 +97,10 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Case{3, 90, SphereMapping::latLong}, Case{5, 90, SphereMapping::latLong},
                       Case{8, 90, SphereMapping::latLong}, Case{3, 135, SphereMapping::latLong},
                       Case{8, 135, SphereMapping::latLong}, Case{5, 45, SphereMapping::latLong},
-                      Case{3, 90, SphereMapping::cube}, Case{8, 90, SphereMapping::cube}),
+                      Case{3, 90, SphereMapping::cube}, Case{8, 90, SphereMapping::cube},
+                      Case{8, 90, SphereMapping::latLong, Layout::mirrored},
+                      Case{8, 90, SphereMapping::latLong, Layout::bare},
+                      Case{8, 90, SphereMapping::cube, Layout::uneven}),
     [](const auto& instance) { return nameOf(instance.param); });
 
 }  // namespace
