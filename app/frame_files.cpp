@@ -7,8 +7,6 @@
 namespace cutis::app {
 namespace {
 
-constexpr double kDefaultFps = 24;
-
 struct NumberPlace {
     std::size_t begin = 0, end = 0;  // of "%04d"
     std::size_t digits = 0;          // at least so many, filled with zeros

@@ -7,6 +7,8 @@
 
 namespace cutis::app {
 
+inline constexpr double kDefaultFps = 24;  // frames a second, where --fps says nothing
+
 // Whether the file's name holds one place for a number: %d, or %04d for four digits.
 bool hasFrameNumber(const std::filesystem::path& file);
 

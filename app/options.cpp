@@ -331,7 +331,7 @@ std::vector<Option> makeOptions() {
          [](Request& r, const std::string& text) { r.fps = parseNumber(text, kMinFps, kMaxFps); }},
 
         {"--skin", "GLOB", kView, quality,
-         "Materials whose names match are skin, or 'none' (default: those marked in the file, else those "
+         "Materials whose names match are skin, or 'none', or a file that ends in .json says so, as the viewer saves it (default: those marked in the file, else those "
          "named like "
          "skin, head, face or body)",
          false, [](Request& r, const std::string& text) { r.skin = parseText(text); }},

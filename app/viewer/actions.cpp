@@ -11,13 +11,12 @@
 #include "renderer/core/files.h"
 #include "renderer/scene/environment.h"
 #include "renderer/scene/environment_sun.h"
-#include "renderer/scene/picture.h"
 #include "renderer/scene/presets.h"
 #include "renderer/scene/rig.h"
+#include "renderer/scene/skin_file.h"
 
 namespace cutis::app {
 namespace fs = std::filesystem;
-namespace {
 
 std::string lowercaseExtension(const fs::path& file) {
     std::string extension = file.extension().string();
@@ -25,6 +24,8 @@ std::string lowercaseExtension(const fs::path& file) {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return extension;
 }
+
+namespace {
 
 fs::path recoveredFile() {
     return cacheFolder() / "recovered.rig.json";
@@ -67,11 +68,21 @@ Rig loadWholeRig(const fs::path& file) {
 void openFile(Session& session, const fs::path& file) {
     const std::string extension = lowercaseExtension(file);
     if (extension == ".gltf" || extension == ".glb") return openScene(session, file.string());
+    if (file.string().ends_with(".skin.json")) return openSkin(session, file);
     if (extension == ".json") return openRig(session, file);
     openEnvironment(session, file);
 }
 
-void openScene(Session& session, const std::string& scene) {
+namespace {
+
+// At once when the rig is saved; else its fate is asked first.
+void whenSaved(Session& session, std::function<void(Session&)> act) {
+    if (!session.edits.unsaved() && !session.skinUnsaved()) return act(session);
+    session.afterSaving = std::move(act);
+    showDialog(session, Dialog::unsaved);
+}
+
+void startOpening(Session& session, const std::string& scene) {
     Request request;
     request.operands = {scene};
     request.settings = session.request.settings;
@@ -85,14 +96,35 @@ void openScene(Session& session, const std::string& scene) {
     session.opening = request;
 }
 
+}  // namespace
+
+void openScene(Session& session, const std::string& scene) {
+    whenSaved(session, [scene](Session& s) { startOpening(s, scene); });
+}
+
 void openRig(Session& session, const fs::path& file) {
     attempt(session, [&] {
         const Rig rig = loadWholeRig(file);
-        session.edits.endGesture();
-        session.edits.apply("Open rig " + file.filename().string(), [&](Document& document) {
-            replaceRig(document, rig, fs::absolute(file).lexically_normal());
+        whenSaved(session, [rig, file](Session& s) {
+            s.edits.endGesture();
+            s.edits.apply("Open rig " + file.filename().string(), [&](Document& document) {
+                replaceRig(document, rig, fs::absolute(file).lexically_normal());
+            });
+            s.edits.markSaved();
+            rememberFile(s, file);
+            s.say("Opened " + file.string());
         });
-        session.edits.markSaved();
+    });
+}
+
+void openSkin(Session& session, const fs::path& file) {
+    attempt(session, [&] {
+        if (!session.geometry) throw Error("cannot open skin", "there is no scene yet", file.string());
+        const auto skin = loadSkinFile(file, *session.geometry);
+        session.edits.endGesture();
+        session.edits.apply("Open skin " + file.filename().string(),
+                            [&](Document& document) { document.skin = skin; });
+        session.savedSkin = skin;
         rememberFile(session, file);
         session.say("Opened " + file.string());
     });
@@ -122,6 +154,7 @@ void openEnvironment(Session& session, const fs::path& file) {
                 environment.sunRemoved = false;
             });
             s.edits.endGesture();
+            rememberFile(s, file);
         };
     });
 }
@@ -159,7 +192,8 @@ bool saveRig(Session& session) {
 }
 
 bool saveRigAs(Session& session, const fs::path& file) {
-    return attempt(session, [&] {
+    const std::function<void(Session&)> after = std::exchange(session.afterSaving, nullptr);
+    const bool saved = attempt(session, [&] {
         const fs::path whole = fs::absolute(file).lexically_normal();
         cutis::saveRig(rigForFile(session.document().rig, whole), whole);
         if (session.document().rigFile != whole) {
@@ -172,47 +206,38 @@ bool saveRigAs(Session& session, const fs::path& file) {
         discardAutosave();
         session.say("Saved " + whole.string());
     });
+    if (saved && after) {
+        session.afterSaving = after;
+        saveNext(session);
+    }
+    return saved;
 }
 
-void savePicture(Session& session, const fs::path& file) {
-    const std::string extension = lowercaseExtension(file);
-    if (extension != ".png" && extension != ".exr") {
-        session.complain("A picture's name must end in .png or .exr");
-        return;
-    }
-    session.savingPicture = fs::absolute(file);
-    session.say("Saves " + file.string() + " when the full picture is there");
-    continueSaving(session);
-}
-
-void continueSaving(Session& session) {
-    using namespace std::chrono_literals;
-    if (session.writing.valid() && session.writing.wait_for(0s) == std::future_status::ready) {
-        const std::string problem = session.writing.get();
-        problem.empty() ? session.say("The picture is saved") : session.complain(problem);
-    }
-    if (session.savingPicture.empty() || session.writing.valid() || !session.picture ||
-        !session.picture->full || session.picture->version != session.edits.version())
-        return;
-    const fs::path file = std::exchange(session.savingPicture, {});
-    session.writing = std::async(std::launch::async, [file, picture = session.picture->composed,
-                                                      exposure = session.document().rig.exposure] {
-        try {
-            lowercaseExtension(file) == ".png" ? writePng(file, *picture, exposure)
-                                               : writeExr(file, *picture);
-        } catch (const std::exception& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+bool saveSkinAs(Session& session, const fs::path& file) {
+    const std::function<void(Session&)> after = std::exchange(session.afterSaving, nullptr);
+    const bool saved = attempt(session, [&] {
+        if (!session.geometry) throw Error("cannot save skin", "there is no scene yet", file.string());
+        writeFileAtomically(file, skinFileText(session.document().skin, *session.geometry));
+        session.savedSkin = session.document().skin;
+        rememberFile(session, file);
+        session.say("Saved " + file.string());
     });
+    if (saved && after) after(session);
+    return saved;
+}
+
+void saveNext(Session& session) {
+    if (session.edits.unsaved()) {
+        saveRig(session);
+    } else if (session.skinUnsaved()) {
+        showDialog(session, Dialog::saveSkin, "untitled.skin.json");
+    } else if (session.afterSaving) {
+        std::exchange(session.afterSaving, nullptr)(session);
+    }
 }
 
 void quit(Session& session) {
-    if (session.edits.unsaved()) {
-        showDialog(session, Dialog::unsaved);
-    } else {
-        session.quit = true;
-    }
+    whenSaved(session, [](Session& s) { s.quit = true; });
 }
 
 void undo(Session& session) {

@@ -11,9 +11,6 @@
 namespace cutis::app {
 namespace {
 
-// What is white in the two maps: a difference of the mean light, a perceived difference of a half.
-constexpr double kWholeDifference = 1, kWholeFlip = 0.5;
-
 void requestPicture(Session& session, std::size_t slot) {
     try {
         const int number = slot == 0 ? kPictureA : kPictureB;
@@ -55,9 +52,8 @@ ComparedFigures compare(std::shared_ptr<const Picture> a, std::shared_ptr<const 
 void storeState(Session& session, std::size_t slot, const std::string& name, const Document& document) {
     StoredState& state = session.compared[slot];
     state = {true, name, document, nullptr};
-    if (session.picture && session.picture->full && session.picture->version == session.edits.version() &&
-        document == session.document()) {
-        AsideResult there{slot == 0 ? kPictureA : kPictureB, session.picture->linear, {}};
+    if (session.complete() && document == session.document()) {
+        AsideResult there{slot == 0 ? kPictureA : kPictureB, session.picture->linear, {}, {}};
         there.display = toDisplay(*session.picture->composed, document.rig.exposure);
         takeStatePicture(session, std::move(there));
     } else {
@@ -108,9 +104,7 @@ void takeStatePicture(Session& session, AsideResult result) {
 
 std::shared_ptr<const Picture> comparedWith(const Session& session) {
     if (session.compared[1].stored) return session.compared[1].linear;
-    const bool there =
-        session.picture && session.picture->full && session.picture->version == session.edits.version();
-    return there ? session.picture->linear : nullptr;
+    return session.complete() ? session.picture->linear : nullptr;
 }
 
 void updateDifference(Session& session) {

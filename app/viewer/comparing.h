@@ -5,6 +5,10 @@
 
 namespace cutis::app {
 
+// What is white in the two maps of the difference: one of the mean light, a perceived one of a half.
+inline constexpr double kWholeDifference = 1, kWholeFlip = 0.5;
+inline constexpr const char *kWholeDifferenceText = "the mean light", *kWholeFlipText = "0.5";
+
 // Puts the document aside as A (slot 0) or B (slot 1); its full picture is rendered beside the view unless it
 // is there.
 void storeState(Session& session, std::size_t slot, const std::string& name, const Document& document);

@@ -226,6 +226,14 @@ void placeLight(Light& light, const glm::dvec3& pivot) {
     light.place = place;
 }
 
+void aimAt(Light& light, const glm::dvec3& position, const glm::dvec3& point) {
+    const glm::dvec3 towards = point - position;
+    if (!(glm::length(towards) > 1e-6)) return;
+    light.place.reset();
+    light.position = position;
+    light.direction = glm::normalize(towards);
+}
+
 Rig rigForFile(Rig rig, const std::filesystem::path& file) {
     if (rig.environment.file.empty()) return rig;
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();

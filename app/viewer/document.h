@@ -99,6 +99,9 @@ void turnLight(Light& light, double azimuth, double elevation, const glm::dvec3&
 // A free light as one placed round its subject, where it is; it then aims at the subject's centre.
 void placeLight(Light& light, const glm::dvec3& pivot);
 
+// The light stands free at `position` and shines at `point` (world), which must not be there too.
+void aimAt(Light& light, const glm::dvec3& position, const glm::dvec3& point);
+
 // The rig as it goes into `file`: an environment that lies below or beside the file's folder gets a relative
 // name.
 Rig rigForFile(Rig rig, const std::filesystem::path& file);

@@ -16,7 +16,7 @@ constexpr int kReduction = 2;
 bool sameView(const Session& session) {
     const MixerStrip& mixer = session.mixer;
     const Document& document = session.document();
-    return mixer.scene == session.scene && mixer.view == document.view && mixer.skin == document.skin &&
+    return mixer.scene == session.scene && mixer.view == document.view && mixer.skin == document.skin && mixer.pose == session.posed &&
            mixer.width == session.view.width && mixer.height == session.view.height;
 }
 
@@ -50,6 +50,7 @@ void renew(Session& session) {
     const std::vector<Contribution> before = std::exchange(mixer.contributions, contributionsOf(document));
     mixer.view = document.view;
     mixer.skin = document.skin;
+    mixer.pose = session.posed;
     mixer.scene = session.scene;
     mixer.width = session.view.width;
     mixer.height = session.view.height;
@@ -77,11 +78,9 @@ void updateMixer(Session& session) {
         session.say("The mixer cannot add up a scene that glows by itself");
         return;
     }
-    const bool settled =
-        session.picture && session.picture->full && session.picture->version == session.edits.version();
-    if (settled && !(sameView(session) && canMix(mixer.contributions, session.document()))) renew(session);
-    if (!mixShows(session) || mixer.mixedVersion == session.edits.version()) return;
-    mixer.mixedVersion = session.edits.version();
+    if (session.complete() && !(sameView(session) && canMix(mixer.contributions, session.document()))) renew(session);
+    if (!mixShows(session) || mixer.mixedVersion == session.shownVersion()) return;
+    mixer.mixedVersion = session.shownVersion();
     session.uploads.emplace_back(kMixPicture, toDisplay(mix(mixer.contributions, session.document()),
                                                         session.document().rig.exposure));
 }

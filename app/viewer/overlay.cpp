@@ -21,17 +21,21 @@ constexpr Overlay kOverlays[] = {
      Inspect::What::level},
     {kInspectedName, "Shadow", "of the chosen light: white where it arrives, black where it does not",
      Inspect::What::shadow},
-    {"thickness", "Thickness", "white 0 mm, through yellow and red, black 30 mm and more"},
+    {kInspectedName, "Light map",
+     "depth as the chosen light sees it, a map for each character: white the nearest, black nothing",
+     Inspect::What::lightMap},
+    {"thickness", "Thickness", "white 0 mm, through yellow and red, black 30 mm and more",
+     Inspect::What::none, "30 mm", "0 mm"},
     {"albedo", "Albedo", "as sRGB"},
     {"normal", "Normal", "red +X, green +Y, blue +Z"},
     {"depth", "Depth", "white the nearest, black the farthest"},
     {"character", "Character", "one colour a character"},
     {kInspectedName, "Stretch",
      "of the atlas: black even, through red and yellow, white 4 times longer one way",
-     Inspect::What::stretch},
+     Inspect::What::stretch, "even", "4 times as long"},
     {kInspectedName, "Texel density",
      "of the atlas: black 0, through red and yellow, white 8 texels a millimetre",
-     Inspect::What::texelDensity},
+     Inspect::What::texelDensity, "0", "8 texels / mm"},
 };
 
 constexpr float kStretched = 4;  // times as long as across
@@ -40,20 +44,6 @@ constexpr float kThick = 30;  // mm: nothing shines through more
 
 std::uint8_t toByte(float value) {
     return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f);
-}
-
-// Black through purple, red and yellow to white: as the maps of `cutis compare`.
-glm::vec3 heat(float value) {
-    static constexpr float kStops[][3] = {{0, 0, 0},      {70, 10, 90},   {180, 30, 60},
-                                          {240, 120, 10}, {255, 220, 80}, {255, 255, 255}};
-    constexpr int kSteps = static_cast<int>(std::size(kStops)) - 1;
-    const float place = std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) * kSteps : kSteps;
-    const int step = std::min(static_cast<int>(place), kSteps - 1);
-    const float part = place - static_cast<float>(step);
-    glm::vec3 color;
-    for (int c = 0; c < 3; ++c)
-        color[c] = (kStops[step][c] + part * (kStops[step + 1][c] - kStops[step][c])) / 255;
-    return color;
 }
 
 // `color` of each pixel, from its values, as code values.
@@ -77,6 +67,7 @@ glm::vec3 encode(const glm::vec3& linear) {
 }
 
 DisplayPicture showDepth(const Picture& values) {
+    // The first channel counts, of however many.
     float near = std::numeric_limits<float>::infinity(), far = 0;
     for (const float depth : values.values)
         if (depth > 0) near = std::min(near, depth), far = std::max(far, depth);
@@ -89,10 +80,12 @@ DisplayPicture showInspected(const Inspect& inspect, const Picture& values, floa
     switch (inspect.what) {
         case Inspect::What::stretch:
             return paint(values, [](const float* p) {
-                return *p > 0 ? heat((*p - 1) / (kStretched - 1)) : glm::vec3(0);
+                return *p > 0 ? heatColor((*p - 1) / (kStretched - 1)) : glm::vec3(0);
             });
         case Inspect::What::texelDensity:
-            return paint(values, [](const float* p) { return heat(*p / kDense); });
+            return paint(values, [](const float* p) { return heatColor(*p / kDense); });
+        case Inspect::What::lightMap:
+            return showDepth(values);
         case Inspect::What::shadow:
             return paint(values, [](const float* p) { return glm::vec3(*p); });
         default:
@@ -104,6 +97,19 @@ DisplayPicture showInspected(const Inspect& inspect, const Picture& values, floa
 
 }  // namespace
 
+glm::vec3 heatColor(float value) {
+    static constexpr float kStops[][3] = {{0, 0, 0},      {70, 10, 90},   {180, 30, 60},
+                                          {240, 120, 10}, {255, 220, 80}, {255, 255, 255}};
+    constexpr int kSteps = static_cast<int>(std::size(kStops)) - 1;
+    const float place = std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) * kSteps : kSteps;
+    const int step = std::min(static_cast<int>(place), kSteps - 1);
+    const float part = place - static_cast<float>(step);
+    glm::vec3 color;
+    for (int c = 0; c < 3; ++c)
+        color[c] = (kStops[step][c] + part * (kStops[step + 1][c] - kStops[step][c])) / 255;
+    return color;
+}
+
 std::span<const Overlay> overlays() {
     return kOverlays;
 }
@@ -114,7 +120,7 @@ DisplayPicture showAov(const Shown& shown, const Picture& values, double exposur
     const auto rgb = [](const float* p) { return glm::vec3(p[0], p[1], p[2]); };
     if (aov == kInspectedName) return showInspected(shown.inspect, values, gain);
     if (aov == "thickness")
-        return paint(values, [](const float* p) { return *p > 0 ? heat(1 - *p / kThick) : glm::vec3(0); });
+        return paint(values, [](const float* p) { return *p > 0 ? heatColor(1 - *p / kThick) : glm::vec3(0); });
     if (aov == "depth") return showDepth(values);
     if (aov == "character")
         return paint(values, [](const float* p) {
@@ -136,7 +142,7 @@ DisplayPicture showAov(const Shown& shown, const Picture& values, double exposur
 
 DisplayPicture showMap(const Picture& map, double whole) {
     const float scale = static_cast<float>(1 / whole);
-    return paint(map, [=](const float* p) { return heat(*p * scale); });
+    return paint(map, [=](const float* p) { return heatColor(*p * scale); });
 }
 
 }  // namespace cutis::app

@@ -1,6 +1,7 @@
 // Data of a picture shown as colours.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <span>
 #include <string>
 
@@ -14,7 +15,14 @@ struct Overlay {
     const char* label;  // in the menu
     const char* scale;  // what its colours mean
     Inspect::What inspect = Inspect::What::none;
+    // Where colours run from black to white (heatColor): what they stand for. Empty: they do not.
+    const char* black = "";
+    const char* white = "";
 };
+
+// Black (0) through purple, red and yellow to white (1 and more, or what is not finite): as the maps of `cutis
+// compare`. Code values.
+glm::vec3 heatColor(float value);
 
 // All that can be shown, the picture first.
 std::span<const Overlay> overlays();

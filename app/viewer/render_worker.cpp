@@ -30,7 +30,8 @@ bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
 bool sameLight(const RenderState& a, const RenderState& b) {
     Rig rig = a.rig;
     rig.exposure = b.rig.exposure;
-    return a.scene == b.scene && a.skin == b.skin && rig == b.rig && sameSettings(a.settings, b.settings);
+    return a.scene == b.scene && a.skin == b.skin && a.pose == b.pose && rig == b.rig &&
+           sameSettings(a.settings, b.settings);
 }
 
 // Turned by so little that samples fall elsewhere within a third of a pixel, which is how far apart they are:
@@ -198,7 +199,7 @@ void RenderWorker::run() {
             status_.busy = status_.working = false;
             if (job || !error.empty()) status_.error = error;
             if (shadows_.busy()) status_.working = true;
-            if (aside && !error.empty()) asideResults_.push_back({aside->id, nullptr, {}});
+            if (aside && !error.empty()) asideResults_.push_back({aside->id, nullptr, {}, {}});
         }
         wake_();
     }
@@ -228,6 +229,7 @@ void RenderWorker::show(const Job& job) {
     refinement_.reset();
     if (showAgain(job)) return;
     putSkin(job.state);
+    putPose(job.state);
     const bool onlyMoved = moved(job);
     const double first = firstFraction(job);
     if (first < 1) {
@@ -277,6 +279,8 @@ bool RenderWorker::canRefine() const {
 
 void RenderWorker::refineOnce() {
     Job job = *shown_;
+    putSkin(job.state);  // pictures beside the view may have had another
+    putPose(job.state);
     if (refinement_->next() == Refinement::Step::pixels) {
         job.state.camera =
             jittered(job.state.camera, refinement_->pixelPictures(), job.state.settings.height);
@@ -304,6 +308,17 @@ void RenderWorker::putSkin(const RenderState& state) {
     if (skinOf(*state.scene) == state.skin) return;
     shadows_.wait();
     applySkin(*state.scene, state.skin);
+}
+
+// Scenes at rest come as they are.
+void RenderWorker::putPose(const RenderState& state) {
+    if (state.scene->animations.empty() || (posedScene_.lock() == state.scene && pose_ == state.pose)) return;
+    shadows_.wait();
+    posedScene_.reset();  // unknown, should this throw
+    poseScene(*state.scene, state.pose.animation, state.pose.seconds);
+    ++poseRevision_;
+    posedScene_ = state.scene;
+    pose_ = state.pose;
 }
 
 void RenderWorker::publish(WorkerResult result) {
@@ -347,8 +362,10 @@ WorkerResult RenderWorker::render(const Job& job, double fraction, bool draft) {
 
 void RenderWorker::renderNextAside(const AsideJob& job) {
     putSkin(job.state);
+    putPose(job.state);
     RenderResult rendered = draw(renderers_.draft, job.state, job.state.settings);
-    AsideResult result{job.id, std::make_shared<const Picture>(std::move(rendered.picture)), {}};
+    AsideResult result{
+        job.id, std::make_shared<const Picture>(std::move(rendered.picture)), {}, std::move(rendered.aovs)};
     result.display = toDisplay(*overBackground(job.state, result.linear), job.state.rig.exposure);
     const std::lock_guard lock(mutex_);
     asideResults_.push_back(std::move(result));
@@ -369,6 +386,7 @@ RenderResult RenderWorker::draw(const RenderFunction& renderer, const RenderStat
 
 RenderInput RenderWorker::inputOf(const RenderState& state) {
     return {.scene = state.scene.get(),
+            .poseRevision = poseRevision_,
             .rig = state.rig,
             .environment = environmentOf(state.rig),
             .environmentRevision = environmentRevision_,

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -15,6 +16,7 @@
 
 #include "app/viewer/display_picture.h"
 #include "app/viewer/overlay.h"
+#include "app/viewer/playback.h"
 #include "app/viewer/refinement.h"
 #include "app/viewer/shadow_pictures.h"
 #include "renderer/frame/background.h"
@@ -26,7 +28,8 @@ namespace cutis::app {
 struct RenderState {
     std::shared_ptr<Scene> scene;  // with texels; the worker alone touches it once it has been handed over
     std::vector<std::optional<SkinMaterial>> skin;  // per material, put into the scene before rendering
-    Rig rig;                                        // placements resolved, solo and mute applied
+    Pose pose;  // the scene is put into it before rendering
+    Rig rig;    // placements resolved, solo and mute applied
     Camera camera;
     RenderSettings settings;  // width and height of the full picture
     Shown overlay;            // no AOV: the picture
@@ -58,6 +61,7 @@ struct AsideResult {
     int id = 0;
     std::shared_ptr<const Picture> linear;  // null when it could not be rendered
     DisplayPicture display;
+    std::map<std::string, Picture> aovs;  // that its settings ask for
 };
 
 struct WorkerStatus {
@@ -121,6 +125,7 @@ class RenderWorker {
     void closeRenderers();
     void refineOnce();
     void putSkin(const RenderState& state);
+    void putPose(const RenderState& state);
     void renderNextAside(const AsideJob& job);
     void publish(WorkerResult result);
     bool stale() const;
@@ -153,6 +158,9 @@ class RenderWorker {
     WorkerResult full_;                             // and that picture, without its bytes for the screen
     double moveSeconds_ = -1, changeSeconds_ = -1;  // of the last full picture after a camera's move, and
                                                     // after any other change; negative: none yet
+    std::weak_ptr<Scene> posedScene_;               // stands in `pose_`
+    Pose pose_;
+    std::uint64_t poseRevision_ = 0;
     std::string environmentFile_;
     bool sunRemoved_ = false;
     std::uint64_t environmentRevision_ = 0;

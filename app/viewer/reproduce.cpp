@@ -1,10 +1,12 @@
 // The command line that makes the picture in the viewer.
+#include <algorithm>
 #include <charconv>
 
 #include "app/viewer/actions.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
 #include "renderer/scene/rig.h"
+#include "renderer/scene/skin_file.h"
 
 namespace cutis::app {
 namespace {
@@ -25,19 +27,23 @@ std::string numberText(double value) {
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
-// The rig's file when it holds the rig as it is, else a copy named by its content.
+// A file in the cache folder with that text, named by its content: KIND-HASH.KIND.json.
+std::filesystem::path cachedFile(const std::string& kind, const std::string& text) {
+    const std::uint64_t hash = hashBytes(std::as_bytes(std::span(text)));
+    const std::filesystem::path folder = cacheFolder();
+    if (folder.empty()) throw Error("cannot name the " + kind, "save it first: there is no cache folder");
+    char digits[17] = {};
+    std::to_chars(digits, digits + 16, hash, 16);
+    const std::filesystem::path file = folder / (kind + '-' + digits + '.' + kind + ".json");
+    writeFileAtomically(file, text);
+    return file;
+}
+
+// The rig's file when it holds the rig as it is, else a copy.
 std::filesystem::path rigFileOf(const Session& session) {
     const Document& document = session.document();
     if (!document.rigFile.empty() && !session.edits.unsaved()) return document.rigFile;
-    const std::string text = rigToJson(document.rig);
-    const std::uint64_t hash = hashBytes(std::as_bytes(std::span(text)));
-    const std::filesystem::path folder = cacheFolder();
-    if (folder.empty()) throw Error("cannot name the rig", "save it first: there is no cache folder");
-    char digits[17] = {};
-    std::to_chars(digits, digits + 16, hash, 16);
-    const std::filesystem::path file = folder / ("rig-" + std::string(digits) + ".rig.json");
-    writeFileAtomically(file, text);
-    return file;
+    return cachedFile("rig", rigToJson(document.rig));
 }
 
 }  // namespace
@@ -57,9 +63,22 @@ std::string commandLine(Session& session) {
     if (solo) line += " --env none";
     const View& view = document.view;
     line += " --camera " + shellWord(view.camera.empty() ? toSelector(view.orbit) : view.camera);
-    if (session.request.animation) line += " --animation " + shellWord(*session.request.animation);
-    if (session.request.time) line += " --time " + numberText(*session.request.time);
-    if (session.request.skin) line += " --skin " + shellWord(*session.request.skin);
+    if (session.posed.animation != kAtRest) {
+        // By its number where other animations have the same name, or it has none.
+        const auto& animations = session.geometry->animations;
+        const std::string& name = animations[static_cast<std::size_t>(session.posed.animation)].name;
+        const auto named = std::count_if(animations.begin(), animations.end(),
+                                         [&](const Animation& animation) { return animation.name == name; });
+        const bool byName = !name.empty() && named == 1;
+        line += " --animation " + shellWord(byName ? name : std::to_string(session.posed.animation));
+        line += " --time " + numberText(session.posed.seconds);
+    }
+    if (document.skin != session.loadedSkin && session.geometry) {
+        const std::string text = skinFileText(document.skin, *session.geometry);
+        line += " --skin " + shellWord(cachedFile("skin", text).string());
+    } else if (session.request.skin && session.request.operands[0] == document.scene) {
+        line += " --skin " + shellWord(*session.request.skin);
+    }
     const auto nameOf = [](const auto& names, auto value) {
         return std::string(names[static_cast<int>(value)]);
     };
@@ -81,10 +100,7 @@ std::string commandLine(Session& session) {
 void copyCommandLine(Session& session) {
     try {
         session.clipboard = commandLine(session);
-        const bool ownSkin = session.scene && session.openedScene == session.document().scene &&
-                             session.document().skin != session.loadedSkin;
-        session.say(ownSkin ? "Copied; changes of skin are not in it, no option expresses them"
-                            : "Copied: " + session.clipboard);
+        session.say("Copied: " + session.clipboard);
     } catch (const Error& error) {
         session.complain(error.what());
     }

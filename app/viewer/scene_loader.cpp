@@ -39,6 +39,8 @@ Scene withoutTexels(const Scene& scene) {
     bare.nodes = scene.nodes;
     bare.cameras = scene.cameras;
     bare.lights = scene.lights;
+    bare.skins = scene.skins;
+    bare.animations = scene.animations;
     bare.characters = scene.characters;
     bare.nodeCharacter = scene.nodeCharacter;
     bare.bounds = scene.bounds;
@@ -95,6 +97,8 @@ LoadedScene load(Request request) {
                         .chain = request.settings.chain,
                         .taps = request.settings.taps};
     loaded.geometry = std::make_shared<Scene>(withoutTexels(inputs.scene));
+    if (!inputs.scene.animations.empty()) loaded.spare = std::make_shared<Scene>(*loaded.geometry);
+    if (inputs.animation != kAtRest) loaded.pose = {inputs.animation, request.time.value_or(0)};
     loaded.scene = std::make_shared<Scene>(std::move(inputs.scene));
     return loaded;
 }

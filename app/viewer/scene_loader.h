@@ -11,6 +11,7 @@
 #include "app/options.h"
 #include "app/tolerance.h"
 #include "app/viewer/document.h"
+#include "app/viewer/playback.h"
 
 namespace cutis::app {
 
@@ -19,6 +20,8 @@ struct LoadedScene {
     std::string name;                 // as it was asked for: a file, or "default"
     std::shared_ptr<Scene> scene;     // with texels: for the renderer alone
     std::shared_ptr<Scene> geometry;  // the same without texels: for the interface
+    std::shared_ptr<Scene> spare;     // another of these, to pose beside it; null where nothing moves
+    Pose pose;                        // that they are in
     Document document;                // the scene as it opens
     KnownFront known{defaultFront(), false};  // of the error of settings for it
     std::string error;                // not empty: nothing was loaded, for this reason

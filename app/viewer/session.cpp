@@ -57,6 +57,7 @@ RenderState stateFor(const Session& session, const Document& document) {
     RenderState state;
     state.scene = session.scene;
     state.skin = document.skin;
+    state.pose = session.posed;
     state.rig = effectiveRig(document);
     state.settings = session.request.settings;
     state.settings.width = session.view.width;
@@ -89,8 +90,8 @@ void editView(Session& session, const std::string& label, const std::function<vo
 }
 
 void updateDerived(Session& session) {
-    if (!session.geometry || session.derivedVersion == session.edits.version()) return;
-    session.derivedVersion = session.edits.version();
+    if (!session.geometry || session.derivedVersion == session.shownVersion()) return;
+    session.derivedVersion = session.shownVersion();
     const Document& document = session.document();
     // A head is found among all vertices: only when what is skin may have changed.
     if (session.derivedGeometry != session.geometry || session.derivedSkin != document.skin) {

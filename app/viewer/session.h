@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "app/viewer/edits.h"
 #include "app/viewer/mixer.h"
 #include "app/viewer/place_by_light.h"
+#include "app/viewer/playback.h"
 #include "app/viewer/render_worker.h"
 #include "app/viewer/window.h"
 
@@ -24,6 +26,7 @@ namespace cutis::app {
 // Numbers of pictures in the window, and of what is rendered beside the view: the smaller the sooner.
 inline constexpr int kRoomPicture = -1;  // one dark pixel: what is about the view
 inline constexpr int kLivePicture = 0, kPictureA = 1, kPictureB = 2, kDifferencePicture = 3, kMixPicture = 4;
+inline constexpr int kSavedPicture = 5;  // only its data channels, never shown
 inline constexpr int kLightPictures = 100, kPresetPictures = 100000, kEnvironmentPictures = 200000;  // and on
 
 // A state that was put aside, with its full picture once that is rendered.
@@ -52,12 +55,21 @@ struct MixerStrip {
     View view;
     std::vector<std::optional<SkinMaterial>> skin;
     std::shared_ptr<Scene> scene;
+    Pose pose;
     int width = 0, height = 0;
-    std::uint64_t mixedVersion = 0;  // of the edit list, for which kMixPicture is
+    std::uint64_t mixedVersion = 0;  // the session's shownVersion, for which kMixPicture is
     bool complete() const;           // all pictures are there
 };
 
-enum class Dialog { none, open, saveRig, savePicture, unsaved };
+// A picture that is to be saved once it is there.
+struct SavedPicture {
+    std::filesystem::path file;  // empty: none
+    bool aovs = false;           // with data channels, which are rendered first
+    std::shared_ptr<const Picture> picture;  // null until the full one is there
+    double exposure = 0;
+};
+
+enum class Dialog { none, open, saveRig, saveSkin, savePicture, unsaved };
 
 struct Session {
     Request request;  // options of the command line
@@ -67,6 +79,9 @@ struct Session {
     // The scene without texels, with the document's skin; null until one is loaded. The renderer's own copy
     // has the texels.
     std::shared_ptr<Scene> geometry, scene;
+    Playback playback;
+    Pose posed;                     // that `geometry` is in, and pictures are made of
+    std::uint64_t poses = 0;        // how often it has changed
     glm::dvec3 headCentre{0};            // of everyone's heads: what lights turn round
     std::vector<double> headIrradiance;  // per light, luminance at the head that it faces, as if it were on
     std::uint64_t derivedVersion = 0;    // of the edit list, when these were computed
@@ -85,7 +100,8 @@ struct Session {
     std::string loading;  // name of the scene under way; empty: none
     double loadingSeconds = 0;
     std::string openedScene;                              // what `geometry` is
-    std::vector<std::optional<SkinMaterial>> loadedSkin;  // per material, as the file has it
+    std::vector<std::optional<SkinMaterial>> loadedSkin;  // per material, as the file and --skin have it
+    std::vector<std::optional<SkinMaterial>> savedSkin;   // as it was loaded or saved last
 
     std::array<StoredState, 2> compared;  // A, B
     CompareMode compareMode = CompareMode::off;
@@ -109,11 +125,13 @@ struct Session {
     Dialog dialog = Dialog::none;
     bool dialogOpens = false;  // in the next frame
     std::string dialogPath;
-    bool showHelp = false, showHandles = true, showPanels = true;
+    std::function<void(Session&)> afterSaving;  // what waits for the rig to be saved, or given up; empty: nothing
+    bool showHelp = false, showHandles = true, showPanels = true, showTimeLine = true;
 
     std::string message;  // of the last action
     bool messageIsError = false;
-    std::filesystem::path savingPicture;  // waits for the full picture; empty: none
+    SavedPicture saving;
+    bool saveAovs = false;  // pictures are saved with their data channels
     // Something that takes longer than a frame: what it gives is run on the session once it is there.
     std::future<std::function<void(Session&)>> task;
     std::future<std::string> writing;     // the picture on its way to disk; gives what to say
@@ -124,9 +142,17 @@ struct Session {
     bool quit = false;
 
     const Document& document() const { return edits.document(); }
+    // The scene's skin is not what was loaded or saved last.
+    bool skinUnsaved() const {
+        return geometry && document().scene == openedScene && document().skin != savedSkin;
+    }
     bool hasLight() const {
         return selectedLight >= 0 && selectedLight < static_cast<int>(document().rig.lights.size());
     }
+    // Grows with whatever changes the picture of a view of this size, edits and poses.
+    std::uint64_t shownVersion() const { return edits.version() + poses; }
+    // The full picture of what is shown is there.
+    bool complete() const { return picture && picture->full && picture->version == shownVersion(); }
     const Light& light() const { return document().rig.lights[static_cast<std::size_t>(selectedLight)]; }
     double aspect() const { return view.height > 0 ? double(view.width) / view.height : 1.0; }
 

@@ -29,10 +29,8 @@ PixelRect fit(const PixelRect& room, double aspect) {
 
 // The current state: the mix while that is newer than the full picture.
 int currentPicture(const Session& session) {
-    const bool full =
-        session.picture && session.picture->full && session.picture->version == session.edits.version();
-    return !full && mixShows(session) && session.mixer.mixedVersion == session.edits.version() ? kMixPicture
-                                                                                               : kLivePicture;
+    const bool mixed = mixShows(session) && session.mixer.mixedVersion == session.shownVersion();
+    return !session.complete() && mixed ? kMixPicture : kLivePicture;
 }
 
 }  // namespace
@@ -46,14 +44,17 @@ Layout layOut(Session& session, float width, float height, float menuBar, float 
     const bool fits = width > 2.5f * kPanelWidth * scale;
     layout.side = session.showPanels && fits ? std::round(kPanelWidth * scale) : 0;
     const int bar = static_cast<int>(ImGui::GetFrameHeight() + 6 * scale);
+    const bool timed = session.showTimeLine && !session.playback.empty();
+    const int timeLine = timed ? static_cast<int>(ImGui::GetFrameHeight() + 8 * scale) : 0;
     const int mixer = session.mixer.shown ? static_cast<int>(kMixerHeight * scale) : 0;
     PixelRect& room = session.room;
     room.x = static_cast<int>(layout.side);
     room.width = static_cast<int>(width - 2 * layout.side);
     layout.bar = {room.x, static_cast<int>(menuBar), room.width, bar};
     room.y = layout.bar.y + bar;
-    room.height = static_cast<int>(height - statusBar) - room.y - mixer;
-    layout.mixer = {room.x, room.y + room.height, room.width, mixer};
+    room.height = static_cast<int>(height - statusBar) - room.y - mixer - timeLine;
+    layout.timeLine = {room.x, room.y + room.height, room.width, timeLine};
+    layout.mixer = {room.x, room.y + room.height + timeLine, room.width, mixer};
     session.view = fit(room, session.pictureAspect);
     return layout;
 }

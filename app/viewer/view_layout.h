@@ -9,7 +9,7 @@ struct Layout {
     float side = 0;        // width of the panels on the left and on the right
     float top = 0;         // below the menu bar
     float bottom = 0;      // above the status bar
-    PixelRect bar, mixer;  // above and below the picture
+    PixelRect bar, timeLine, mixer;  // above the picture, and below it; empty: not shown
 };
 
 // Puts session.room and session.view where they belong in a window of that size; panels may be hidden.

@@ -13,9 +13,11 @@
 #include "app/viewer/comparing.h"
 #include "app/viewer/frame_times.h"
 #include "app/viewer/hot_keys.h"
+#include "app/viewer/legend.h"
 #include "app/viewer/mixing.h"
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/scene_loader.h"
+#include "app/viewer/scene_poser.h"
 #include "app/viewer/shader_reload.h"
 #include "app/viewer/thumbnails.h"
 #include "app/viewer/view_input.h"
@@ -99,6 +101,7 @@ class Viewer {
             const Clock::time_point begun = Clock::now();
             takeNews();
             takeInput();
+            movePose();
             if (window_.beginFrame()) drawFrame();
             showNewest();
             saveNowAndThen();
@@ -113,7 +116,9 @@ class Viewer {
     }
 
     double pause() const {
-        if (ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || frames_ > 0) return kActive;
+        if (ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || frames_ > 0 || poser_.busy() ||
+            session_.playback.playing())
+            return kActive;
         const bool working = loader_.loading() || session_.worker.busy || session_.writing.valid() ||
                              session_.task.valid() || shaders_.compiling() ||
                              session_.compareMode == CompareMode::blink || session_.comparing.valid() ||
@@ -135,6 +140,7 @@ class Viewer {
         Request request = session_.request;
         request.operands = {document.scene};
         request.rig = "none";
+        if (document.scene != session_.request.operands[0]) request.skin.reset();
         request.lights.clear();
         request.environment.reset();
         request.environmentIntensity.reset();
@@ -198,6 +204,7 @@ class Viewer {
     void takeAside(AsideResult result) {
         if (result.id == kPictureA || result.id == kPictureB)
             return takeStatePicture(session_, std::move(result));
+        if (result.id == kSavedPicture) return takeAovs(session_, std::move(result));
         if (result.id >= kLightPictures && result.id < kPresetPictures)
             return takeLightPicture(session_, std::move(result));
         if (result.linear) session_.uploads.emplace_back(result.id, std::move(result.display));
@@ -212,8 +219,11 @@ class Viewer {
         unavailable_.clear();
         session_.geometry = loaded.geometry;
         session_.scene = loaded.scene;
+        poser_.open(loaded.spare);
+        session_.playback.open(*loaded.geometry, loaded.pose);
+        session_.posed = loaded.pose;
         session_.openedScene = loaded.name;
-        session_.loadedSkin = loaded.document.skin;
+        session_.loadedSkin = session_.savedSkin = loaded.document.skin;
         session_.known = loaded.known;
         session_.derivedVersion = 0;
         session_.selectedMaterial = session_.selectedCharacter = -1;
@@ -250,6 +260,30 @@ class Viewer {
         reloadIfNeeded();
     }
 
+    // The interface's scene and the pictures follow the time line as fast as they can: poses that come while
+    // one is computed are left out.
+    void movePose() {
+        const Clock::time_point now = Clock::now();
+        session_.playback.advance(std::chrono::duration<double>(now - std::exchange(played_, now)).count());
+        try {
+            if (std::optional<ScenePoser::Posed> posed = poser_.take(session_.geometry)) {
+                session_.geometry = std::move(posed->scene);
+                session_.posed = posed->pose;
+                ++session_.poses;
+                session_.derivedGeometry.reset();  // which may be this scene, in the pose before the last
+            }
+        } catch (const Error& error) {
+            session_.playback.pause();
+            refused_ = session_.playback.pose();
+            session_.complain(error.what());
+        }
+        const Pose& wanted = session_.playback.pose();
+        if (session_.playback.empty() || poser_.busy() || wanted == session_.posed || wanted == refused_)
+            return;
+        refused_.reset();
+        poser_.start(wanted);
+    }
+
     void drawFrame() {
         if (frames_ > 0) --frames_;
         updateDerived(session_);
@@ -260,6 +294,7 @@ class Viewer {
         const Layout layout = layOut(session_, io.DisplaySize.x, io.DisplaySize.y, top, bottom);
         if (session_.geometry) {
             drawViewBar(session_, layout.bar);
+            if (layout.timeLine.height > 0) drawTimeLine(session_, layout.timeLine);
             if (session_.mixer.shown) drawMixerStrip(session_, layout.mixer);
             if (layout.side > 0) {
                 drawSide("##rig", 0, layout, [this] { drawLeft(); });
@@ -269,6 +304,7 @@ class Viewer {
         drawStatusBar(session_, bottom);
         drawHelp(session_);
         drawDialogs(session_);
+        drawLegend(session_);
         handleView(session_);
         drawLoading();
         const std::vector<PicturePart> parts = pictureParts(session_);
@@ -340,15 +376,18 @@ class Viewer {
         if (!session_.scene || session_.view.width <= 0 || session_.view.height <= 0 ||
             session_.document().scene != session_.openedScene)
             return;
-        // Another light's shadow is shown when another light is chosen.
-        if (session_.overlay.inspect.what == Inspect::What::shadow)
+        // Another light's shadow or map is shown when another light is chosen.
+        const Inspect::What what = session_.overlay.inspect.what;
+        if (what == Inspect::What::shadow || what == Inspect::What::lightMap)
             session_.overlay.inspect.index = std::max(session_.selectedLight, 0);
-        const Key key{session_.edits.version(), session_.view.width, session_.view.height, session_.overlay};
+        const Key key{session_.shownVersion(), session_.view.width, session_.view.height, session_.overlay};
         waits_ = false;
         if (key == shownKey_) return;
         if (key.version != seenVersion_) {
             changed_ = Clock::now();
-            times_.addEdit(key.version, turning());
+            const bool lit = session_.edits.version() != editVersion_ && !turning();
+            times_.addEdit(key.version, !lit);
+            editVersion_ = session_.edits.version();
         }
         seenVersion_ = key.version;
         // While the mixer shows what is edited, nothing needs to be rendered until the faders rest.
@@ -385,14 +424,17 @@ class Viewer {
     Session session_;
     Window window_;
     SceneLoader loader_;
-    bool opens_ = true;        // what is loading becomes the document
-    std::string unavailable_;  // a scene that could not be loaded: not tried again by itself
+    ScenePoser poser_;
+    Clock::time_point played_ = Clock::now();  // up to when the time line has gone on
+    std::optional<Pose> refused_;              // a pose that the scene cannot take
+    bool opens_ = true;                        // what is loading becomes the document
+    std::string unavailable_;                  // a scene that could not be loaded: not tried again by itself
     std::optional<Key> shownKey_;
     int frames_ = 0;  // to draw without a pause: ImGui answers a key in the frame after
     Clock::time_point autosaved_ = Clock::now();
     std::uint64_t autosavedVersion_ = 0;
     Clock::time_point changed_;  // the document, last
-    std::uint64_t seenVersion_ = 0;
+    std::uint64_t seenVersion_ = 0, editVersion_ = 0;
     bool waits_ = false;  // the mixer shows a change that is not rendered yet
     EnvironmentThumbnails environmentThumbnails_;
     ShaderReload shaders_;

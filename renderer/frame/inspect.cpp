@@ -58,6 +58,68 @@ glm::vec3 shown(const Inspect& inspect, const Texel& texel) {
     }
 }
 
+InspectReadback recordLightMapsOf(const FrameContext& frame) {
+    const LightMaps& maps = frame.lights;
+    const Inspect& inspect = frame.settings->inspect;
+    if (!maps.depth) return {};
+    InspectReadback readback{.side = maps.size};
+    std::size_t shadowed = 0;
+    int part = 0;
+    for (const LightSample& sample : frame.lighting.samples) {
+        if (sample.light == inspect.index && part++ == inspect.part && sample.shadow) {
+            for (std::size_t view = shadowed * maps.groupCount; view < (shadowed + 1) * maps.groupCount; ++view) {
+                if (view >= maps.viewList.size() || !frame.lighting.mapsNeeded[view]) continue;
+                const shared::LightView& from = maps.viewList[view];
+                readback.lightMaps.push_back(
+                    {frame.commands->readback(maps.depth.layer(from.layer)), from.depthToDistance});
+            }
+        }
+        if (sample.shadow) ++shadowed;
+    }
+    return readback;
+}
+
+// Metres along the axis; 0 where nothing was drawn.
+float distanceAt(float depth, const glm::vec3& depthToDistance) {
+    if (depth >= 1) return 0;
+    return depthToDistance.y == 0 ? depthToDistance.z * depth
+                                  : depthToDistance.x / (depthToDistance.y + depthToDistance.z * depth);
+}
+
+// As many columns as make the squares largest.
+int columnsFor(int squares, int width, int height) {
+    int best = 1, largest = 0;
+    for (int columns = 1; columns <= squares; ++columns) {
+        const int rows = (squares + columns - 1) / columns, side = std::min(width / columns, height / rows);
+        if (side > largest) largest = side, best = columns;
+    }
+    return best;
+}
+
+void placeLightMaps(const InspectReadback& readback, Picture& picture) {
+    const int count = static_cast<int>(readback.lightMaps.size());
+    if (count == 0) return;
+    const int columns = columnsFor(count, picture.width, picture.height), rows = (count + columns - 1) / columns;
+    const int side = std::min(picture.width / columns, picture.height / rows);
+    const int left = (picture.width - columns * side) / 2, top = (picture.height - rows * side) / 2;
+    for (int m = 0; m < count; ++m) {
+        const InspectReadback::LightMap& map = readback.lightMaps[std::size_t(m)];
+        const std::span<const std::byte> bytes = map.depth.bytes();
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                // Maps hold what is up at the bottom.
+                const std::size_t row = std::size_t(side - 1 - y) * readback.side / side,
+                                  column = std::size_t(x) * readback.side / side;
+                float depth = 1;
+                std::memcpy(&depth, &bytes[(row * readback.side + column) * sizeof depth], sizeof depth);
+                const int toX = left + m % columns * side + x, toY = top + m / columns * side + y;
+                float* to = &picture.values[(std::size_t(toY) * picture.width + toX) * 3];
+                std::fill_n(to, 3, distanceAt(depth, map.depthToDistance));
+            }
+        }
+    }
+}
+
 }  // namespace
 
 InspectReadback recordInspect(const FrameContext& frame) {
@@ -91,6 +153,8 @@ InspectReadback recordInspect(const FrameContext& frame) {
             }
             return {};
         }
+        case Inspect::What::lightMap:
+            return recordLightMapsOf(frame);
     }
     return {};
 }
@@ -99,6 +163,10 @@ Picture lookUpInspected(const Inspect& inspect, const InspectReadback& readback,
     Picture picture{atlas.width, atlas.height, 3, {}};
     picture.values.resize(std::size_t(atlas.width) * atlas.height * 3, 0);
     if (readback.side == 0) return picture;
+    if (inspect.what == Inspect::What::lightMap) {
+        placeLightMaps(readback, picture);
+        return picture;
+    }
     const Texels texels(inspect, readback);
     const float scale = 1.0f / static_cast<float>(1 << readback.shift);
     parallelFor(std::size_t(atlas.height), [&](std::size_t y) {

@@ -29,11 +29,13 @@ inline constexpr const char* kChainNames[] = {"exact", "published"};
 // What the atlas holds, shown on the surface as the AOV kInspectedName: for looking into the passes. level:
 // the irradiance blurred to the variance of Gaussian `index`; stretch: how many times longer a texel is one
 // way than across; texelDensity: texels per millimetre; shadow: the share of light `index` of the rig that
-// arrives.
+// arrives. lightMap is not seen on the surface: the maps of sample `part` of light `index`, beside each other
+// and upright, as distances from the light in metres, 0 where it sees nothing.
 struct Inspect {
-    enum class What { none, level, stretch, texelDensity, shadow };
+    enum class What { none, level, stretch, texelDensity, shadow, lightMap };
     What what = What::none;
     int index = 0;
+    int part = 0;
     bool operator==(const Inspect&) const = default;
 };
 inline constexpr const char* kInspectedName = "inspected";

@@ -11,6 +11,7 @@
 #include "renderer/scene/codec_client.h"
 #include "renderer/scene/gltf_parts.h"
 #include "renderer/scene/pose.h"
+#include "renderer/scene/skin_file.h"
 
 namespace cutis {
 namespace {
@@ -113,7 +114,11 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
     keepRestPositions(scene);
     checkBounds(scene);
     if (options.images) gltf::readImages(document, materials.images, scene);
-    if (options.skin) {
+    if (options.skin && isSkinFile(*options.skin)) {
+        const std::vector<std::optional<SkinMaterial>> skin = loadSkinFile(*options.skin, scene);
+        for (std::size_t i = 0; i < skin.size(); ++i) scene.materials[i].skin = skin[i];
+        findCharacters(scene);
+    } else if (options.skin) {
         selectSkin(scene, *options.skin);
     } else {
         if (!materials.skinMarked) guessSkin(scene);

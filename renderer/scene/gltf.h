@@ -10,7 +10,7 @@
 namespace cutis {
 
 struct GltfOptions {
-    // What is skin, as for selectSkin. Unset: what material.extras.skin says, else the name, with a warning.
+    // What is skin, as for selectSkin, or a file of skin_file.h. Unset: what material.extras.skin says, else the name, with a warning.
     std::optional<std::string> skin;
     bool images = true;  // false: leave Scene::images without texels
 };

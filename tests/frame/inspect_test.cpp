@@ -79,6 +79,31 @@ TEST_F(InspectTest, ShadowIsTheShareThatArrives) {
     EXPECT_EQ(meanOf(inspected(Inspect::What::shadow, 99)), 0) << "there is no such light";
 }
 
+// Of one spot above the scene: what it sees lies before it, as far as things in the scene are.
+TEST_F(InspectTest, LightMapsHoldDistancesFromTheLight) {
+    const Light& light = small_.input.rig.lights.at(0);
+    ASSERT_NE(light.type, LightType::directional);
+    double nearest = 1e9, farthest = 0;
+    const Bounds& bounds = small_.scene.bounds;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
+                            corner & 4 ? bounds.max.z : bounds.min.z);
+        farthest = std::max(farthest, glm::length(at - light.position));
+    }
+    nearest = glm::length(glm::clamp(light.position, bounds.min, bounds.max) - light.position);
+    const Picture map = inspected(Inspect::What::lightMap, 0);
+    double seen = 0;
+    for (std::size_t i = 0; i < map.values.size(); i += 3) {
+        if (map.values[i] == 0) continue;
+        ++seen;
+        // Along the axis of the map, which for what stands at its edge is less than the distance: 0.5 holds to 60 degrees.
+        EXPECT_GT(map.values[i], 0.5 * nearest);
+        EXPECT_LT(map.values[i], 1.001 * farthest);
+    }
+    EXPECT_GT(seen / (map.values.size() / 3.0), 0.05) << "it sees something";
+    EXPECT_EQ(meanOf(inspected(Inspect::What::lightMap, 99)), 0) << "there is no such light";
+}
+
 // A picture is the same whether something is inspected beside it or not.
 TEST_F(InspectTest, LeavesThePictureAlone) {
     const RenderResult plain = renderer_.render(small_.input, small_.settings);

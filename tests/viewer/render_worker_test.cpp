@@ -9,7 +9,9 @@
 #include <semaphore>
 
 #include "renderer/core/error.h"
+#include "renderer/scene/gltf.h"
 #include "tests/cli/program.h"
+#include "tests/support/walking_body.h"
 
 namespace cutis::test {
 namespace {
@@ -200,6 +202,44 @@ TEST(RenderWorker, AnotherExposureIsNotRenderedAnew) {
     EXPECT_EQ(results.back().version, 2u);
     EXPECT_EQ(results.back().display.rgba[0], toDisplay(*results.back().linear, 1).rgba[0]);
     EXPECT_LE(rendered - before, Refinement::kPixelPictures - 1);  // the refinement, but no first picture
+}
+
+// The scene stands in the pose that was asked for, and whoever keeps what it has uploaded hears of each change once.
+TEST(RenderWorker, PosesTheSceneBeforeItIsDrawn) {
+    const TemporaryFolder folder;
+    using Drawn = std::pair<double, std::uint64_t>;  // where the hips are, the pose's revision
+    std::mutex mutex;
+    std::vector<Drawn> drawn;
+    RenderWorker worker(
+        [&] {
+            return both([&](const RenderInput& input, const RenderSettings& settings) {
+                const std::lock_guard lock(mutex);
+                drawn.emplace_back(input.scene->nodes.at(1).world[3].z, input.poseRevision);
+                return greyPicture(settings);
+            });
+        },
+        [] {});
+    RenderState state = stateOf(0);
+    state.scene = std::make_shared<Scene>(loadGltf(writeWalkingBody(folder.path()), {}));
+    std::uint64_t version = 0;
+    for (const double seconds : {0.0, 1.0, 1.0, 2.0}) {
+        state.pose = {0, seconds};
+        state.rig.exposure += 1;
+        worker.show(++version, state);
+        ASSERT_FALSE(resultsUntil(worker, version).empty());
+    }
+    worker.renderAside({7, state});
+    while (worker.takeAside().empty()) std::this_thread::sleep_for(1ms);
+    const std::lock_guard lock(mutex);
+    std::uint64_t revisions = 0;
+    double last = -1;
+    for (const auto& [place, revision] : drawn) {
+        if (std::abs(place - last) > 1e-6) ++revisions;
+        last = place;
+        EXPECT_EQ(revision, revisions) << place;
+    }
+    EXPECT_EQ(revisions, 3u);
+    EXPECT_NEAR(last, 0.6, 1e-6);
 }
 
 TEST(RenderWorker, ALostDeviceIsOpenedAnew) {

@@ -3,8 +3,12 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <functional>
+#include <utility>
+
 #include "app/viewer/actions.h"
 #include "app/viewer/panels/panels.h"
+#include "app/viewer/panels/widgets.h"
 
 namespace cutis::app {
 namespace {
@@ -16,13 +20,20 @@ void close(Session& session) {
     ImGui::CloseCurrentPopup();
 }
 
-void drawPathDialog(Session& session, const char* what, const char* verb, const char* details,
-                    void (*act)(Session&, const std::filesystem::path&)) {
+void cancel(Session& session) {
+    session.afterSaving = nullptr;
+    close(session);
+}
+
+void drawPathDialog(
+    Session& session, const char* what, const char* verb, const char* details,
+    void (*act)(Session&, const std::filesystem::path&), const std::function<void()>& drawMore = [] {}) {
     ImGui::TextUnformatted(what);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 34);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     bool done = ImGui::InputText("##path", &session.dialogPath, ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::TextDisabled("%s", details);
+    drawMore();
     ImGui::Spacing();
     ImGui::BeginDisabled(session.dialogPath.empty());
     done |= ImGui::Button(verb);
@@ -34,28 +45,35 @@ void drawPathDialog(Session& session, const char* what, const char* verb, const 
         close(session);
         act(session, path);
     } else if (cancelled) {
-        close(session);
+        cancel(session);
     }
 }
 
 void drawUnsaved(Session& session) {
-    ImGui::TextUnformatted("The rig has changes that are not saved.");
+    const bool rig = session.edits.unsaved(), skin = session.skinUnsaved();
+    ImGui::Text("The %s changes that are not saved.", rig && skin ? "rig and the skin have"
+                                                      : rig       ? "rig has"
+                                                                  : "skin has");
     ImGui::Spacing();
-    if (ImGui::Button("Save and quit")) {
+    if (ImGui::Button("Save")) {
         close(session);
-        if (saveRig(session)) session.quit = true;
+        saveNext(session);
     }
     ImGui::SameLine();
-    if (ImGui::Button("Quit without saving")) {
-        session.quit = true;
+    if (ImGui::Button("Go on without saving")) {
         close(session);
+        std::exchange(session.afterSaving, nullptr)(session);
     }
     ImGui::SameLine();
-    if (ImGui::Button("Cancel")) close(session);
+    if (ImGui::Button("Cancel")) cancel(session);
 }
 
 void saveAs(Session& session, const std::filesystem::path& file) {
     saveRigAs(session, file);
+}
+
+void saveSkin(Session& session, const std::filesystem::path& file) {
+    saveSkinAs(session, file);
 }
 
 }  // namespace
@@ -66,20 +84,31 @@ void drawDialogs(Session& session) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     if (!ImGui::BeginPopupModal("cutis", nullptr, kFlags | ImGuiWindowFlags_NoTitleBar)) return;
-    if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE)) close(session);
+    if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE)) cancel(session);
     switch (session.dialog) {
         case Dialog::open:
-            drawPathDialog(session, "Open a file", "Open",
-                           ".gltf or .glb: a scene; .rig.json: a rig; .exr or .hdr: an environment",
-                           openFile);
+            drawPathDialog(
+                session, "Open a file", "Open",
+                ".gltf, .glb: a scene; .rig.json: a rig; .skin.json: skin; .exr, .hdr: an environment",
+                openFile);
             break;
         case Dialog::saveRig:
             drawPathDialog(session, "Save the rig as", "Save", "A file that is there is replaced", saveAs);
             break;
+        case Dialog::saveSkin:
+            drawPathDialog(session, "Save the skin as", "Save",
+                           "How all materials scatter, for --skin. A file that is there is replaced",
+                           saveSkin);
+            break;
         case Dialog::savePicture:
             drawPathDialog(session, "Save the picture as", "Save",
                            ".png: as shown; .exr: scene-linear radiance. A file that is there is replaced",
-                           savePicture);
+                           savePicture, [&] {
+                               ImGui::Checkbox("With data channels", &session.saveAovs);
+                               hint(
+                                   "Also FILE.NAME.exr for diffuse, specular, irradiance, thickness, albedo, "
+                                   "normal, position, depth and character");
+                           });
             break;
         case Dialog::unsaved:
             drawUnsaved(session);

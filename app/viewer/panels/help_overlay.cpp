@@ -32,6 +32,7 @@ void drawHelp(Session& session) {
     ImGui::TextUnformatted(
         "Left drag: turn the view, or move a light by its handle (Shift: its distance, Alt: its cone or "
         "size)\n"
+        "The cross is where the chosen light aims, the square the edge of its cone: drag them\n"
         "Ctrl and left drag on a face: the chosen light's highlight follows the mouse (with Shift: its "
         "shadow's edge)\n"
         "Middle or right drag: move the view.  Wheel: nearer or farther\n"

@@ -19,6 +19,8 @@ void drawFileMenu(Session& session) {
     if (ImGui::MenuItem("Save rig", "Ctrl+S")) saveRig(session);
     if (ImGui::MenuItem("Save rig as ...", "Ctrl+Shift+S"))
         showDialog(session, Dialog::saveRig, session.document().rigFile.string());
+    if (ImGui::MenuItem("Save skin as ...", nullptr, false, session.geometry != nullptr))
+        showDialog(session, Dialog::saveSkin, "untitled.skin.json");
     if (ImGui::MenuItem("Recover rig", nullptr, false, session.recoverable)) recoverRig(session);
     ImGui::Separator();
     if (ImGui::MenuItem("Save picture ...", "Ctrl+P"))
@@ -49,6 +51,7 @@ float drawMenuBar(Session& session) {
             ImGui::MenuItem("Panels", "Tab", &session.showPanels);
             ImGui::MenuItem("Light handles", "H", &session.showHandles);
             ImGui::MenuItem("Light mixer", "X", &session.mixer.shown);
+            ImGui::MenuItem("Time line", "T", &session.showTimeLine, !session.playback.empty());
             ImGui::EndMenu();
         }
         if (ImGui::BeginMenu("Help")) {

@@ -18,6 +18,7 @@ void drawPlanPanel(Session& session);
 // These make windows of their own.
 void drawViewBar(Session& session,
                  const PixelRect& where);  // above the picture: what it shows, what dragging does
+void drawTimeLine(Session& session, const PixelRect& where);  // below the picture: which animation, and when
 void drawMixerStrip(Session& session, const PixelRect& where);
 float drawMenuBar(Session& session);  // returns its height
 void drawStatusBar(Session& session, float height);

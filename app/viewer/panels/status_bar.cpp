@@ -17,7 +17,7 @@ std::string workText(const Session& session) {
         std::snprintf(text, sizeof text, "Loading %s, %.0f s", session.loading.c_str(),
                       session.loadingSeconds);
     } else if (session.picture && session.picture->refined > 0 &&
-               session.picture->version == session.edits.version()) {
+               session.picture->version == session.shownVersion()) {
         const WorkerResult& picture = *session.picture;
         char state[64] = "Converged";
         if (!picture.converged && picture.refined < Refinement::kPixelPictures) {

@@ -9,6 +9,7 @@
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/panels/widgets.h"
 #include "app/viewer/style.h"
+#include "renderer/scene/light_samples.h"
 
 namespace cutis::app {
 namespace {
@@ -24,18 +25,25 @@ bool isShown(const Session& session, const Overlay& overlay) {
     return session.overlay.aov == overlay.aov && session.overlay.inspect.what == overlay.inspect;
 }
 
-// Which Gaussian's level is shown, where levels are.
-void drawLevel(Session& session) {
-    const int levels = session.picture ? session.picture->stats.gaussians : 0;
-    if (session.overlay.inspect.what != Inspect::What::level || levels == 0) return;
-    int& index = session.overlay.inspect.index;
-    index = std::clamp(index, 0, levels - 1);
+void drawNumber(int& index, int count, const char* help) {
+    index = std::clamp(index, 0, count - 1);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 4);
     int number = index + 1;
-    if (ImGui::SliderInt("##level", &number, 1, levels, "%d", ImGuiSliderFlags_AlwaysClamp))
+    if (ImGui::SliderInt("##number", &number, 1, count, "%d", ImGuiSliderFlags_AlwaysClamp))
         index = number - 1;
-    hint("Which level, from the narrowest");
+    hint(help);
+}
+
+// Which of several is shown: the level of which Gaussian, the map of which sample of a light.
+void drawNumbers(Session& session) {
+    Inspect& inspect = session.overlay.inspect;
+    const int levels = session.picture ? session.picture->stats.gaussians : 0;
+    if (inspect.what == Inspect::What::level && levels > 0)
+        drawNumber(inspect.index, levels, "Which level, from the narrowest");
+    const int samples = session.hasLight() ? sampleCount(session.light()) : 0;
+    if (inspect.what == Inspect::What::lightMap && samples > 1)
+        drawNumber(inspect.part, samples, "Which sample of the light");
 }
 
 void drawOverlayChoice(Session& session) {
@@ -46,13 +54,13 @@ void drawOverlayChoice(Session& session) {
     if (ImGui::BeginCombo("##show", shown->label, ImGuiComboFlags_HeightLargest)) {
         for (const Overlay& overlay : overlays()) {
             if (ImGui::Selectable(overlay.label, &overlay == shown))
-                session.overlay = {overlay.aov, {overlay.inspect, 0}};
+                session.overlay = {overlay.aov, {overlay.inspect, 0, 0}};
             if (*overlay.scale) hint(overlay.scale);
         }
         ImGui::EndCombo();
     }
     hint(*shown->scale ? shown->scale : "What is shown: the picture, or what it is made of");
-    drawLevel(session);
+    drawNumbers(session);
 }
 
 void drawPlacing(Session& session, bool narrow) {

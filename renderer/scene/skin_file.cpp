@@ -1,0 +1,72 @@
+#include "renderer/scene/skin_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "renderer/core/error.h"
+#include "renderer/core/files.h"
+#include "renderer/core/suggest.h"
+#include "renderer/scene/json_view.h"
+#include "renderer/scene/skin_material.h"
+
+namespace cutis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t kMaxBytes = 16 << 20;
+constexpr const char *kVersion = "cutis_skin", *kMaterials = "materials", *kName = "name", *kSkin = "skin";
+
+nlohmann::json parse(const std::filesystem::path& file, const JsonSource& source) {
+    const std::vector<std::byte> bytes = readFile(file, kMaxBytes);
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
+    // The depth of what is nested is bounded: the parser's stack is not.
+    nlohmann::json json = nlohmann::json::parse(
+        text, text + bytes.size(),
+        [](int depth, nlohmann::json::parse_event_t, nlohmann::json&) { return depth < 16; }, false);
+    if (json.is_discarded()) throw Error(source.what, "not JSON", source.file);
+    return json;
+}
+
+}  // namespace
+
+bool isSkinFile(const std::string& name) {
+    return name.ends_with(".json");
+}
+
+std::vector<std::optional<SkinMaterial>> loadSkinFile(const std::filesystem::path& file, const Scene& scene) {
+    const JsonSource source{"cannot load skin", file.string()};
+    const nlohmann::json json = parse(file, source);
+    const JsonView root(json, source);
+    root.allowOnly({kVersion, kMaterials});
+    const JsonView version = root.member(kVersion);
+    if (version.integer() != 1) version.fail("must be 1, the version of the format");
+    std::vector<std::optional<SkinMaterial>> skin;
+    std::vector<bool> named(scene.materials.size(), false);
+    std::vector<std::string> names;
+    for (const Material& material : scene.materials) {
+        skin.push_back(material.skin);
+        names.push_back(material.name);
+    }
+    for (const JsonView& entry : root.member(kMaterials).elements()) {
+        entry.allowOnly({kName, kSkin});
+        const std::string name = entry.member(kName).string();
+        std::size_t place = 0;
+        while (place < names.size() && (named[place] || names[place] != name)) ++place;
+        if (place == names.size())
+            entry.member(kName).fail("the scene has no such material" + didYouMean(name, names));
+        named[place] = true;
+        skin[place] = parseSkinMaterial(entry.member(kSkin));
+    }
+    return skin;
+}
+
+std::string skinFileText(const std::vector<std::optional<SkinMaterial>>& skin, const Scene& scene) {
+    Json materials = Json::array();
+    for (std::size_t i = 0; i < skin.size() && i < scene.materials.size(); ++i) {
+        materials.push_back({{kName, scene.materials[i].name},
+                             {kSkin, skin[i] ? Json(skinMaterialJson(*skin[i])) : Json(false)}});
+    }
+    return Json{{kVersion, 1}, {kMaterials, materials}}.dump(2) + '\n';
+}
+
+}  // namespace cutis
