@@ -32,7 +32,7 @@ void applyColors(ImVec4* colors) {
     colors[ImGuiCol_Header] = grey(0.21f);
     colors[ImGuiCol_HeaderHovered] = grey(0.26f);
     colors[ImGuiCol_HeaderActive] = grey(0.3f);
-    colors[ImGuiCol_SliderGrab] = grey(0.45f);
+    colors[ImGuiCol_SliderGrab] = grey(0.36f);  // text lies over it
     colors[ImGuiCol_SliderGrabActive] = accent;
     colors[ImGuiCol_CheckMark] = accent;
     colors[ImGuiCol_Separator] = grey(0.2f);

@@ -68,10 +68,12 @@ TEST_F(SkinFile, SaysWhatIsWrong) {
     EXPECT_NE(refused(R"({"cutis_skin": 2, "materials": []})").find("must be 1"), std::string::npos);
     const std::string unknown = R"({"cutis_skin": 1, "materials": [{"name": "fase", "skin": true}]})";
     EXPECT_NE(refused(unknown).find("face"), std::string::npos) << refused(unknown);
-    EXPECT_NE(refused(R"({"cutis_skin": 1, "materials": [{"name": "face", "skin": {"scale": -1}}]})").find("scale"),
-              std::string::npos);
-    EXPECT_NE(refused(R"({"cutis_skin": 1, "materials": [{"name": "face", "skin": true, "x": 1}]})").find("x"),
-              std::string::npos);
+    EXPECT_NE(
+        refused(R"({"cutis_skin": 1, "materials": [{"name": "face", "skin": {"scale": -1}}]})").find("scale"),
+        std::string::npos);
+    EXPECT_NE(
+        refused(R"({"cutis_skin": 1, "materials": [{"name": "face", "skin": true, "x": 1}]})").find("x"),
+        std::string::npos);
 }
 
 }  // namespace

@@ -9,6 +9,13 @@ program=$1 scene=$2 folder=$3 drop=$4
 open_viewer "$program" view "$scene" --device cpu --size 960x540 --ui-scale 1
 until_true 60 "the panels" panels_shown
 
+# What cannot be opened changes nothing, whether it is dropped on the window or named in the dialog.
+echo "no scene" >"$folder/bad.glb"
+"$drop" "$window" "$folder/bad.glb"
+echo "{}" >"$folder/bad.rig.json"
+press ctrl+o
+answer "$folder/bad.rig.json"
+
 # The key light a stop brighter in three steps, the last undone; the second light solo, compared with the state of
 # all lights, no longer solo, then muted.
 press bracketright
@@ -23,16 +30,21 @@ press w
 press s
 press m
 
-# Turn the view by the mouse, and back by undo.
+# Turn the view by the mouse, and back by undo, which leaves alone what has played meanwhile: the third frame.
 drag 480 480 60 10
+press space
+sleep 0.5
+press space
+press Home
+press Right
+press Right
+press Right
 press ctrl+z
 
-# What cannot be opened changes nothing, whether it is dropped on the window or named in the dialog.
-echo "no scene" >"$folder/bad.glb"
-"$drop" "$window" "$folder/bad.glb"
-echo "{}" >"$folder/bad.rig.json"
-press ctrl+o
-answer "$folder/bad.rig.json"
+# Another scene would take the rig's place: that is asked first.
+"$drop" "$window" "$scene"
+sleep 0.5
+press Escape
 
 disturb_window 960 540
 press ctrl+s

@@ -1,4 +1,5 @@
-// The time line without a window: what plays, where it ends, and that frames are those of `cutis render --frames`.
+// The time line without a window: what plays, where it ends, and that frames are those of `cutis render
+// --frames`.
 #include "app/viewer/playback.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
 
+#include "renderer/core/files.h"
 #include "renderer/scene/gltf_writer.h"
 #include "renderer/scene/picture.h"
 #include "renderer/scene/rig.h"
@@ -51,8 +54,8 @@ Light spotAt(const std::string& name, double azimuth) {
     return light;
 }
 
-// Smooth bodies: at a sharp edge light differs from texel to texel, and the viewer's atlas, which serves any view, has
-// other texels than that of one picture.
+// Smooth bodies: at a sharp edge light differs from texel to texel, and the viewer's atlas, which serves any
+// view, has other texels than that of one picture.
 Scene twoSpheres() {
     SceneBuilder builder;
     const int skin = builder.addSkin(SkinMaterial());
@@ -63,10 +66,58 @@ Scene twoSpheres() {
     return builder.scene();
 }
 
+// Adds an animation "turn" to a GLB: its first node turns about +Y by 40 degrees in 1 s. The node must have
+// no rotation.
+void addTurn(const std::string& file) {
+    const std::vector<std::byte> bytes = readFile(file, 1 << 26);
+    std::uint32_t length = 0;
+    std::memcpy(&length, &bytes.at(12), sizeof length);
+    const auto* begin = reinterpret_cast<const char*>(bytes.data()) + 20;
+    nlohmann::json json = nlohmann::json::parse(begin, begin + length);
+    std::string binary(begin + length + 8, reinterpret_cast<const char*>(bytes.data()) + bytes.size());
+    const auto add = [&](const std::vector<float>& values, const char* type) {
+        json["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", values.size() * sizeof(float)}});
+        binary.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+        json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
+                                     {"componentType", 5126},
+                                     {"count", 2},
+                                     {"type", type}});
+        return json["accessors"].size() - 1;
+    };
+    const std::size_t times = add({0, 1}, "SCALAR");
+    json["accessors"].back()["min"] = {0};
+    json["accessors"].back()["max"] = {1};
+    const float half = 0.349066f;  // 20 degrees
+    const std::size_t turns = add({0, 0, 0, 1, 0, std::sin(half), 0, std::cos(half)}, "VEC4");
+    json["animations"] = {
+        {{"name", "turn"},
+         {"samplers", {{{"input", times}, {"output", turns}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
+    json["nodes"][0].erase("matrix");
+    json["nodes"][0]["translation"] = {-0.2, 0, 0};
+    json["buffers"][0]["byteLength"] = binary.size();
+    std::string text = json.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string whole(bytes.size() ? reinterpret_cast<const char*>(bytes.data()) : "", 20);
+    const auto put = [&](std::uint32_t value) {
+        whole.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    const auto textLength = static_cast<std::uint32_t>(text.size()),
+               binaryLength = static_cast<std::uint32_t>(binary.size());
+    whole.resize(8);
+    put(28 + textLength + binaryLength), put(textLength), put(0x4e4f534a);
+    whole += text;
+    put(binaryLength), put(0x004e4942);
+    whole += binary;
+    writeText(file, whole);
+}
+
 TEST(Screen, ARigIsMadeComparedUndoneAndSaved) {
     const TemporaryFolder folder;
     const std::string scene = folder / "heads.glb", rigFile = folder / "heads.rig.json";
     writeGlb(twoSpheres(), scene);
+    addTurn(scene);
     Rig rig;
     rig.lights = {spotAt("key", 30), spotAt("rim", 150)};
     saveRig(rig, rigFile);
@@ -96,8 +147,8 @@ TEST(Screen, ARigIsMadeComparedUndoneAndSaved) {
     // The picture is what the command line makes of the saved rig.
     const Picture shown = readPicture(folder / "picture.exr");
     const std::string size = std::to_string(shown.width) + 'x' + std::to_string(shown.height);
-    expectSuccess(runCutis({"render", scene, "--rig", rigFile, "--device", "cpu", "--size", size, "-o",
-                            folder / "command.exr"}));
+    expectSuccess(runCutis({"render", scene, "--rig", rigFile, "--animation", "turn", "--time", "0.125",
+                            "--device", "cpu", "--size", size, "-o", folder / "command.exr"}));
     const Picture expected = readPicture(folder / "command.exr");
     ASSERT_EQ(shown.values.size(), expected.values.size());
     // The view goes through angles and back: some 1e-9 of a pixel, which may tip a sample over an edge.
