@@ -14,6 +14,7 @@ namespace {
 constexpr int kMostSteps = 1000;  // triangles that one walk crosses
 // A border's ends belong to two edges: a walk begins this share of an edge away from them.
 constexpr double kFromEnds = 1e-4;
+constexpr std::uint32_t kAllOwn = 0xf;  // see ownTexels
 
 struct SurfacePoint {
     std::uint32_t triangle;
@@ -184,9 +185,8 @@ std::optional<glm::dvec3> onSurface(const Geometry& geometry, const Atlas& atlas
     return (p1 * cross2(v, e2) + p2 * cross2(e1, v)) / det;
 }
 
-// Which of the four texels around a place are the island's own, a bit each.
-std::uint32_t ownTexels(const Grid& grid, const glm::dvec2& place, std::uint32_t island) {
-    const glm::ivec2 base(glm::floor(place - 0.5));
+// Which of the four texels from `base` on are the island's own, a bit each.
+std::uint32_t ownTexels(const Grid& grid, const glm::ivec2& base, std::uint32_t island) {
     std::uint32_t mask = 0;
     for (int i = 0; i < 4; ++i) {
         const glm::ivec2 at = base + glm::ivec2(i & 1, i >> 1);
@@ -194,6 +194,26 @@ std::uint32_t ownTexels(const Grid& grid, const glm::dvec2& place, std::uint32_t
         if (grid.owner[grid.at(at.x, at.y)] == island + 1) mask |= 1u << i;
     }
     return mask;
+}
+
+struct Sources {
+    glm::ivec2 base;
+    std::uint32_t own;
+};
+
+// The four texels to read a place from: those around it where they are all the island's own, else the nearest four beside it
+// that are, from which light is extrapolated; where there are none, what the island has of those around it.
+Sources sourcesOf(const Grid& grid, const glm::dvec2& place, std::uint32_t island) {
+    const glm::ivec2 around(glm::floor(place - 0.5));
+    Sources sources{around, ownTexels(grid, around, island)};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 9 && ownTexels(grid, around, island) != kAllOwn; ++i) {
+        const glm::ivec2 base = around + glm::ivec2(i % 3 - 1, i / 3 - 1);
+        const glm::dvec2 f = place - 0.5 - glm::dvec2(base);
+        const double beyond = glm::length(f - glm::clamp(f, 0.0, 1.0));
+        if (beyond < nearest && ownTexels(grid, base, island) == kAllOwn) nearest = beyond, sources = {base, kAllOwn};
+    }
+    return sources;
 }
 
 }  // namespace
@@ -230,9 +250,11 @@ SeamMap makeSeamMap(const Geometry& geometry, const SkinMesh& mesh, const Atlas&
                 place += end->barycentric[i] * texelOf(geometry, atlas, end->triangle * 3 + static_cast<HalfEdge>(i));
             }
             place /= grid.texel;
-            const std::uint32_t own = ownTexels(grid, place, mesh.islandOf[end->triangle]);
-            if (own == 0) continue;
-            rows[row].push_back({{.texel = static_cast<std::uint32_t>(x) | static_cast<std::uint32_t>(y) << 14 | own << 28,
+            const Sources sources = sourcesOf(grid, place, mesh.islandOf[end->triangle]);
+            if (sources.own == 0 || sources.base.x < 0 || sources.base.y < 0) continue;
+            const glm::uvec2 base(sources.base);
+            rows[row].push_back({{.texel = static_cast<std::uint32_t>(x) | static_cast<std::uint32_t>(y) << 14 | sources.own << 28,
+                                  .base = base.x | base.y << 16,
                                   .place = glm::vec2(place),
                                   .island = static_cast<float>(mesh.islandOf[h / 3] + 1),
                                   .charts = chartOf(h / 3) | chartOf(end->triangle) << 16},

@@ -15,8 +15,8 @@ bool listedSeam(out uint at) {
 
 ivec2 texelOf(SeamTexel seam) { return ivec2(seam.texel & 0x3fffu, (seam.texel >> 14u) & 0x3fffu); }
 
-// The first of the four texels around the place that lies there; the others are (1, 0), (0, 1) and (1, 1) from it.
-ivec2 sourceBase(SeamTexel seam) { return ivec2(floor(seam.place - 0.5)); }
+// The first of the four texels that the place which lies there is read from; the others are (1, 0), (0, 1) and (1, 1) from it.
+ivec2 sourceBase(SeamTexel seam) { return ivec2(seam.base & 0xffffu, seam.base >> 16u); }
 
 bool isSource(SeamTexel seam, int i) { return ((seam.texel >> (28u + uint(i))) & 1u) != 0u; }
 

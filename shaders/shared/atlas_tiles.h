@@ -38,7 +38,8 @@ struct AtlasTileState {
 // A texel beyond the border of a UV island, and the place on another island, or further on the same one, that lies there on
 // the surface (frame/seam_map.h).
 struct SeamTexel {
-    uint texel;    // x | y << 14; from bit 28: which of the four texels around `place` belong to that island
+    uint texel;    // x | y << 14; from bit 28: which of the four texels from `base` on belong to that island
+    uint base;     // x | y << 16: the first of four texels around `place`, or beside it where those are not all the island's
     vec2 place;    // in texels, of the resolution that the texel is of
     float island;  // 1-based: the one that the texel extends
     uint charts;   // that of the texel | that of `place` << 16

@@ -67,7 +67,9 @@ Errors errorsOf(Primitive plate) {
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
             const glm::dvec2 mm = glm::dvec2(rgbAt(result.aov("position"), x, y)) / kMm;
-            if (std::abs(mm.x) < 0.4 || std::abs(mm.x) > 6) continue;
+            // Where edges meet in T-junctions a sample may fall between their triangles and see nothing.
+            const bool covered = valueAt(result.picture, x, y, 3) > 0.999;
+            if (!covered || std::abs(mm.x) < 0.4 || std::abs(mm.x) > 6) continue;
             const double error = valueAt(result.aov("diffuse"), x, y) - edgeResponse(profile, 0, mm.x);
             const int cut = fromCut(mm) < 3 ? 0 : 1;
             squares[cut] += error * error, ++counts[cut];
@@ -82,8 +84,8 @@ TEST(Seams, LightCrossesThem) {
     reportFigure("seams, whole plate where cuts would be", whole.near);
     reportFigure("seams, whole plate elsewhere", whole.elsewhere);
     reportFigure("seams, cut plate elsewhere", cut.elsewhere);
-    expectAtMost("seams, cut plate near cuts", cut.near, 0.002);
-    reportFigure("seams, near cuts over elsewhere", cut.near / cut.elsewhere);
+    expectAtMost("seams, cut plate near cuts", cut.near, 0.001);
+    expectAtMost("seams, near cuts over elsewhere", cut.near / cut.elsewhere, 1.5);
 }
 
 }  // namespace
