@@ -11,7 +11,7 @@
 #include "shared/atlas_tiles.h"
 #include "shared/scene.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 256) in;
 
 layout(constant_id = 0) const uint SHIFT = 0;  // the level's resolution is 1/2^SHIFT of the atlas'
 layout(constant_id = 1) const uint FINER = 1;  // what it is made from had so many times that
@@ -31,51 +31,63 @@ layout(push_constant, scalar) uniform Push {
 #include "lib/atlas_tiles.glsl"
 #include "lib/blur_reach.glsl"
 
-// A symmetric kernel of 2·count + 1 taps, `step` texels apart along the axis on which the direction is longest.
+// A symmetric kernel of 2·count + 1 taps, `step` texels apart along the axis on which the direction is longest. Weights are
+// q^(i²), one of the next by the last, as they are not divided by their sum until the end.
 struct Kernel {
     int count;
     int step;
-    float inverse;     // 1 / (2σ²) in taps
+    float q;
     float correction;  // moved from the centre to each first neighbour
-    float sum;
 };
-
-float tapWeight(Kernel k, int i) {
-    float w = exp(-float(i * i) * k.inverse) / k.sum;
-    return i == 0 ? w - 2.0 * k.correction : i == 1 ? w + k.correction : w;
-}
 
 // sigma: standard deviation in texels; smoothness: that of the source.
 Kernel makeKernel(float sigma, float smoothness) {
     Kernel k;
-    // A source that is smooth over σ_s can be sampled every σ_s: what would alias is below exp(-2π²).
-    k.step = max(int(smoothness), 1);
-    float taps = sigma / float(k.step);
-    if (taps * kReach > float(MAX_TAPS)) {
-        k.step = int(ceil(sigma * kReach / float(MAX_TAPS)));
-        taps = sigma / float(k.step);
-    }
-    k.count = clamp(int(ceil(taps * kReach)), 1, MAX_TAPS);
-    k.inverse = 0.5 / max(taps * taps, 1e-6);
-    float sum = 1.0, moment = 0.0;
+    float taps;
+    k.step = tapStep(sigma, smoothness);
+    taps = sigma / float(k.step);
+    k.count = tapCount(taps);
+    float variance = taps * taps;
+    k.q = exp(-0.5 / max(variance, 1e-6));
+    float sum = 1.0, moment = 0.0, weight = 1.0, ratio = k.q;
     for (int i = 1; i <= k.count; ++i) {
-        float w = 2.0 * exp(-float(i * i) * k.inverse);
-        sum += w;
-        moment += w * float(i * i);
+        weight *= ratio;
+        ratio *= k.q * k.q;
+        sum += 2.0 * weight;
+        moment += 2.0 * weight * float(i * i);
     }
-    k.sum = sum;
-    k.correction = 0.5 * (taps * taps - moment / sum);
+    k.correction = 0.5 * (variance * sum - moment);
     return k;
+}
+
+// Weights of a kernel, from its centre outwards.
+struct Weights {
+    float plain, ratio;
+};
+
+float firstWeight(Kernel k, out Weights w) {
+    w = Weights(1.0, k.q);
+    return 1.0 - 2.0 * k.correction;
+}
+
+// Of tap i, from 1 on.
+float nextWeight(Kernel k, int i, inout Weights w) {
+    w.plain *= w.ratio;
+    w.ratio *= k.q * k.q;
+    return i == 1 ? w.plain + k.correction : w.plain;
 }
 
 // Variance that linear interpolation between texels adds across the direction of the taps.
 float interpolationVariance(Kernel k, float slope) {
-    float variance = 0.0;
+    Weights w;
+    float sum = firstWeight(k, w), variance = 0.0;
     for (int i = 1; i <= k.count; ++i) {
+        float weight = nextWeight(k, i, w);
         float f = fract(float(i * k.step) * slope);
-        variance += 2.0 * tapWeight(k, i) * f * (1.0 - f);
+        sum += 2.0 * weight;
+        variance += 2.0 * weight * f * (1.0 - f);
     }
-    return variance;
+    return variance / sum;
 }
 
 vec4 accumulated;
@@ -118,7 +130,8 @@ void main() {
     float sigma1 = max(a, abs(b));
     float smoothness1 = sqrt(steep ? before.y : before.x), smoothness2 = sqrt(before.y);
     float sigma2 = sqrt(max(added.y - b * b, 0.0));
-    if (abs(slope) > 1e-3) {
+    bool skew = abs(slope) > 1e-3;
+    if (skew) {
         float excess = interpolationVariance(makeKernel(sigma1, smoothness1), slope);
         if (!steep) {
             sigma2 = sqrt(max(sigma2 * sigma2 - excess, 0.0));
@@ -131,12 +144,13 @@ void main() {
             sigma2 = sqrt(max(added.y - b * b, 0.0));
         }
     }
-    accumulated = vec4(0.0);
-    if (push.axis == 0) {
-        Kernel k = makeKernel(sigma1, smoothness1);
-        addTap(texel, tapWeight(k, 0), factor.w);
+    Kernel k = push.axis == 0 ? makeKernel(sigma1, smoothness1) : makeKernel(sigma2, smoothness2);
+    Weights weights;
+    vec4 own = texelFetch(source, texel, 0);
+    accumulated = vec4(own.rgb, 1.0) * firstWeight(k, weights);
+    if (push.axis == 0 && skew) {
         for (int i = 1; i <= k.count; ++i) {
-            float weight = tapWeight(k, i);
+            float weight = nextWeight(k, i, weights);
             int along = i * k.step;
             float across = float(along) * slope;
             int cell = int(floor(across));
@@ -149,16 +163,15 @@ void main() {
             }
         }
     } else {
-        Kernel k = makeKernel(sigma2, smoothness2);
-        addTap(texel, tapWeight(k, 0), factor.w);
+        // Along an axis of the atlas no tap falls between texels.
+        ivec2 along = push.axis == 0 && !steep ? ivec2(k.step, 0) : ivec2(0, k.step);
         for (int i = 1; i <= k.count; ++i) {
-            float weight = tapWeight(k, i);
-            addTap(texel + ivec2(0, i * k.step), weight, factor.w);
-            addTap(texel - ivec2(0, i * k.step), weight, factor.w);
+            float weight = nextWeight(k, i, weights);
+            addTap(texel + i * along, weight, factor.w);
+            addTap(texel - i * along, weight, factor.w);
         }
     }
     // The centre tap belongs to the island, so there is weight to divide by, unless it was corrected away.
-    vec4 own = texelFetch(source, texel, 0);
     vec3 value = accumulated.a > 1e-6 ? accumulated.rgb / accumulated.a : own.rgb;
     imageStore(target, texel, vec4(value, factor.w));
 }

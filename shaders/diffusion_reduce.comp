@@ -7,7 +7,7 @@
 // features: STRETCH
 #include "shared/atlas_tiles.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 256) in;
 
 layout(constant_id = 0) const uint SHIFT = 1;  // the target's resolution is 1/2^SHIFT of the atlas'
 layout(constant_id = 1) const uint FINER = 2;  // the source's is so many times the target's

@@ -9,7 +9,7 @@
 #include "shared/scene.h"
 #include "lib/octahedral.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 256) in;
 
 // Levels of the atlas' resolution, of half and of a quarter of it, a layer each: rgb; a: island, 0 where uncovered.
 #ifdef FULL
@@ -97,7 +97,7 @@ void addLevels(texture2DArray image, uint first, uint end, float scale, ivec2 te
 void main() {
     ivec2 texel;
     uint tile;
-    if (!tileTexel(texel, tile)) return;
+    if (!tileBlock(0u, texel, tile)) return;
     AtlasChart chart = TILE_CHART;
     vec4 factor = texelFetch(stretch, texel, 0);
     float island = factor.w;

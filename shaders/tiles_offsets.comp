@@ -25,7 +25,7 @@ void main() {
         uint begin = end;
         end += counts[step];
         counts[step] = begin;
-        for (uint shift = 0u; shift <= COARSEST_LEVEL; ++shift) {
+        for (uint shift = 0u; shift <= COARSEST_LEVEL + 1u; ++shift) {
             tileDispatches[step].groups[shift] = groupsOf((end + (1u << 2u * shift) - 1u) >> 2u * shift);
         }
         tileDispatches[step].tiles = end;

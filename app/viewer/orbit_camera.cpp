@@ -50,8 +50,10 @@ Camera toCamera(const OrbitCamera& orbit, double aspect) {
 std::string toSelector(const OrbitCamera& orbit) {
     std::string text = "orbit:";
     for (const double value : {orbit.target.x, orbit.target.y, orbit.target.z, orbit.azimuth, orbit.elevation,
-                               orbit.distance, glm::degrees(orbit.yfov)})
-        text += (text.ends_with(':') ? "" : ",") + plain(std::round(value * 1e5) / 1e5);
+                               orbit.distance, glm::degrees(orbit.yfov)}) {
+        if (!text.ends_with(':')) text += ',';
+        text += plain(std::round(value * 1e5) / 1e5);
+    }
     return text;
 }
 

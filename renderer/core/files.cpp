@@ -28,9 +28,10 @@ std::string reason(int error) {
 
 fs::path temporaryBeside(const fs::path& path) {
     static std::atomic<unsigned> counter{0};
-    const std::string tag = "." + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
+    std::string name = ".";
+    name += path.stem().string() + "." + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
     // The extension stays last: image writers choose their format by it.
-    return path.parent_path() / ("." + path.stem().string() + tag + path.extension().string());
+    return path.parent_path() / (name + path.extension().string());
 }
 
 // Temporary files of the writes under way. Never destroyed: a signal may come during exit.

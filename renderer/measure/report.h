@@ -12,9 +12,9 @@
 namespace cutis {
 
 struct ReportInfo {
-    std::string title;    // of the scene and the sweep
-    std::string device;   // that drew the pictures
-    std::string command;  // that makes this report again
+    std::string title{};    // of the scene and the sweep
+    std::string device{};   // that drew the pictures
+    std::string command{};  // that makes this report again
     int width = 0, height = 0, repeats = 0;
     std::optional<double> tolerance = {};  // of `diffuse`
 };

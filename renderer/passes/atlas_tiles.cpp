@@ -1,5 +1,7 @@
 #include "renderer/passes/atlas_tiles.h"
 
+#include <atomic>
+
 #include "renderer/gpu/device.h"
 #include "renderer/passes/seams.h"
 
@@ -52,7 +54,9 @@ void listTiles(gpu::Device& device, gpu::Commands& commands, const AtlasTiles& t
 AtlasTiles recordCoveredTiles(gpu::Device& device, gpu::Commands& commands, const gpu::Image& triangles,
                               std::span<const ChartRange> ranges, std::vector<std::uint32_t> shifts,
                               const SeamLists& seams) {
+    static std::atomic<std::uint64_t> made{0};
     AtlasTiles result;
+    result.id = ++made;
     result.shifts = std::move(shifts);
     std::vector<shared::AtlasChart> charts;
     std::vector<shared::AtlasTile> tiles;
@@ -152,9 +156,10 @@ shared::TilePush tilePush(const AtlasTiles& tiles, std::uint32_t chart, std::uin
     return {chart, chart * tiles.steps() + step, tiles.receiverGroups[chart]};
 }
 
-std::uint64_t tileGroups(const shared::TilePush& push, std::uint32_t shift) {
+std::uint64_t tileGroups(const gpu::Program& program, const shared::TilePush& push, std::uint32_t shift) {
+    const bool large = program.localSize()[0] * program.localSize()[1] == 256;
     return push.dispatch * sizeof(shared::TileDispatch) + offsetof(shared::TileDispatch, groups) +
-           shift * sizeof(glm::uvec3);
+           (shift + (large ? 1 : 0)) * sizeof(glm::uvec3);
 }
 
 CoveredTexels coveredTexels(const gpu::Readback& counts) {

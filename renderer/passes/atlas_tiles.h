@@ -27,6 +27,7 @@
 namespace cutis {
 
 struct AtlasTiles {
+    std::uint64_t id = 0;  // no two that recordCoveredTiles has made share one
     gpu::Buffer charts, tiles, states;
     gpu::Buffer list, counts, dispatches;
     std::vector<std::uint32_t> receiverGroups;  // a chart
@@ -65,17 +66,17 @@ gpu::Bindings withTiles(gpu::Bindings bindings, const AtlasTiles& tiles);
 
 // What to push, and where the group counts lie, for the tiles of one chart needed up to `step`.
 shared::TilePush tilePush(const AtlasTiles& tiles, std::uint32_t chart, std::uint32_t step);
-std::uint64_t tileGroups(const shared::TilePush& push, std::uint32_t shift = 0);  // 4^shift tiles a group
+std::uint64_t tileGroups(const gpu::Program& program, const shared::TilePush& push, std::uint32_t shift = 0);
 
-// A pass over the tiles needed up to `step`, chart by chart, with a work group for 64 texels of 1/2^shift of
-// the atlas' resolution. Push begins with `TilePush tiles`, which is filled in.
+// A pass over the tiles needed up to `step`, chart by chart, with an invocation for each texel of 1/2^shift of
+// the atlas' resolution, 64 or 256 a work group. Push begins with `TilePush tiles`, which is filled in.
 template <class Push>
 void dispatchTiles(gpu::Commands& commands, const gpu::Program& program, const gpu::Bindings& bindings,
                    Push push, const AtlasTiles& tiles, std::uint32_t step, std::uint32_t shift = 0) {
     const gpu::Bindings all = withTiles(bindings, tiles);
     for (std::uint32_t chart = 0; chart < tiles.receiverGroups.size(); ++chart) {
         push.tiles = tilePush(tiles, chart, step);
-        commands.dispatchIndirect(program, all, push, tiles.dispatches, tileGroups(push.tiles, shift));
+        commands.dispatchIndirect(program, all, push, tiles.dispatches, tileGroups(program, push.tiles, shift));
     }
 }
 

@@ -59,48 +59,45 @@ void recordCoarseStretch(gpu::Device& device, gpu::Commands& commands, const Atl
     }
 }
 
-DiffusionLevels makeLevels(gpu::Device& device, gpu::Commands& commands, int atlasSize,
-                           const AtlasTiles& tiles) {
-    DiffusionLevels levels;
+void makeLevels(gpu::Device& device, gpu::Commands& commands, int atlasSize, const AtlasTiles& tiles,
+                DiffusionLevels& levels) {
+    if (levels.tiles == tiles.id) return;
+    levels = {};
     levels.shifts = tiles.shifts;
+    levels.tiles = tiles.id;
+    const auto make = [&](gpu::Image& image, const char* name, std::uint32_t shift, std::uint32_t layers) {
+        image = coarseImage(device, name, atlasSize, shift, layers);
+        commands.clear(image);
+    };
     for (std::uint32_t shift = 0; shift <= kCoarseLevels; ++shift) {
         const auto count =
             static_cast<std::uint32_t>(std::count(tiles.shifts.begin(), tiles.shifts.end(), shift));
         if (count == 0) continue;
-        levels.images[shift] = coarseImage(device, "diffusion levels", atlasSize, shift, count);
-        // Texels without surface are read wherever they are, and must say so.
-        commands.clear(levels.images[shift]);
+        make(levels.images[shift], "diffusion levels", shift, count);
+        make(levels.scratch[shift], "diffusion scratch", shift, 1);
+        if (shift > 0) make(levels.reduced[shift], "reduced level", shift, 1);
     }
-    return levels;
 }
 
 void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                      const SurfaceImages& surface, const AtlasTiles& tiles, int taps, SkinLight& light) {
-    light.levels = makeLevels(device, commands, surface.size, tiles);
+    DiffusionLevels& levels = light.levels;
+    makeLevels(device, commands, surface.size, tiles, levels);
     recordSeams(device, commands, scene.seams, light.irradiance, 0);
-    gpu::Image scratch, reduced;
-    std::uint32_t scratchShift = ~0u;
     // Level by level over all charts, so that one barrier serves them all.
     for (std::uint32_t level = 0; level < tiles.levels(); ++level) {
         const std::uint32_t shift = tiles.shifts[level], finer = 1u << (shift - tiles.finerShift(level));
         const gpu::Image& stretch = shift == 0 ? surface.stretch : surface.coarseStretch[shift - 1];
-        gpu::ImageView source = level > 0 ? light.levels.view(level - 1) : light.irradiance.view();
-        if (shift != scratchShift) {
-            scratch = coarseImage(device, "diffusion scratch", surface.size, shift);
-            commands.clear(scratch);
-            scratchShift = shift;
-        }
+        gpu::ImageView source = level > 0 ? levels.view(level - 1) : light.irradiance.view();
         if (finer > 1) {
-            reduced = coarseImage(device, "reduced level", surface.size, shift);
-            commands.clear(reduced);
             dispatchTiles(commands, device.program("diffusion_reduce.comp", {{0, shift}, {1, finer}}),
-                          {{"source", source}, {"target", reduced}, {"stretch", stretch}}, ReducePush{},
-                          tiles, tiles.scratch(level) + 1, shift);
-            source = reduced.view();
+                          {{"source", source}, {"target", levels.reduced[shift]}, {"stretch", stretch}},
+                          ReducePush{}, tiles, tiles.scratch(level) + 1, shift);
+            source = levels.reduced[shift].view();
         }
         const gpu::Program& program = device.program(
             "diffusion.comp", {{0, shift}, {1, finer}, {2, static_cast<std::uint32_t>(taps)}});
-        const gpu::ImageView steps[] = {source, scratch.view(), light.levels.view(level)};
+        const gpu::ImageView steps[] = {source, levels.scratch[shift].view(), levels.view(level)};
         for (int axis = 0; axis < 2; ++axis) {
             dispatchTiles(commands, program,
                           {{"source", steps[axis]},
@@ -110,7 +107,7 @@ void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBu
                           BlurPush{{}, level, axis}, tiles,
                           axis == 0 ? tiles.scratch(level) : tiles.level(level), shift);
         }
-        recordSeams(device, commands, scene.seams, light.levels.view(level), shift);
+        recordSeams(device, commands, scene.seams, levels.view(level), shift);
     }
 }
 

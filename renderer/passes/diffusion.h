@@ -18,13 +18,14 @@ inline constexpr double kSmoothTexels = 1.25;
 void recordCoarseStretch(gpu::Device& device, gpu::Commands& commands, const AtlasTiles& tiles,
                          SurfaceImages& surface);
 
-// Makes and fills light.levels: level k holds the irradiance blurred to variance v_k of each chart's own
+// Fills light.levels, which it makes where they are not those of `tiles`: level k holds the irradiance blurred to variance v_k of each chart's own
 // profile. taps: on either side of a blur, at the most.
 void recordDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                      const SurfaceImages& surface, const AtlasTiles& tiles, int taps, SkinLight& light);
 
-// The empty levels of `tiles`.
-DiffusionLevels makeLevels(gpu::Device& device, gpu::Commands& commands, int atlasSize,
-                           const AtlasTiles& tiles);
+// Makes the levels of `tiles` where there are others. Texels without surface are read wherever they are, and say so from then on,
+// as nobody writes them. Those that are not needed keep what they had: whatever reads them is not needed either.
+void makeLevels(gpu::Device& device, gpu::Commands& commands, int atlasSize, const AtlasTiles& tiles,
+                DiffusionLevels& levels);
 
 }  // namespace cutis

@@ -110,8 +110,9 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
                     const std::uint32_t group = input.tiles->receiverGroups[chart];
                     if (!hasMaps(group) && input.groupsSeen[group]) continue;
                     push.tiles = tilePush(*input.tiles, chart, input.tiles->probes());
-                    commands.dispatchIndirect(device.program("environment_visibility.comp"), bindings, push,
-                                              input.tiles->dispatches, tileGroups(push.tiles, 1));
+                    const gpu::Program& program = device.program("environment_visibility.comp");
+                    commands.dispatchIndirect(program, bindings, push, input.tiles->dispatches,
+                                              tileGroups(program, push.tiles, 1));
                 }
             }
             const gpu::Program& program = device.program("environment_visibility.comp+VERTICES");
@@ -168,8 +169,9 @@ void recordEnvironmentOcclusion(gpu::Device& device, gpu::Commands& commands, co
         for (push.word = 0; push.word < words; ++push.word) {
             for (std::uint32_t chart = 0; chart < input.tiles->receiverGroups.size(); ++chart) {
                 push.tiles = tilePush(*input.tiles, chart, input.tiles->probes());
-                commands.dispatchIndirect(device.program("environment_occlusion.comp"), bindings, push,
-                                          input.tiles->dispatches, tileGroups(push.tiles, 1));
+                const gpu::Program& program = device.program("environment_occlusion.comp");
+                commands.dispatchIndirect(program, bindings, push, input.tiles->dispatches,
+                                          tileGroups(program, push.tiles, 1));
             }
         }
     }

@@ -16,12 +16,9 @@ struct BlurPush {
 
 void recordPublishedDiffusion(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                               const SurfaceImages& surface, const AtlasTiles& tiles, SkinLight& light) {
-    const auto size = static_cast<std::uint32_t>(surface.size);
-    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    light.levels = makeLevels(device, commands, surface.size, tiles);
-    const gpu::Image scratch(device,
-                             {.name = "diffusion scratch", .format = format, .width = size, .height = size});
-    commands.clear(scratch);
+    makeLevels(device, commands, surface.size, tiles, light.levels);
+    // It has all levels at full resolution.
+    const gpu::Image& scratch = light.levels.scratch[0];
     const gpu::Program& program = device.program("published_diffusion.comp");
     for (std::uint32_t level = 0; level < tiles.levels(); ++level) {
         for (int axis = 0; axis < 2; ++axis) {

@@ -115,6 +115,9 @@ inline constexpr float kNoThickness = 60000;  // mm
 struct DiffusionLevels {
     std::array<gpu::Image, kCoarseLevels + 1> images;  // by resolution; a layer a level
     std::vector<std::uint32_t> shifts;                 // of each level: its side is the atlas' / 2^shift
+    // By resolution: between the two directions of a blur, and what a level there is made from.
+    std::array<gpu::Image, kCoarseLevels + 1> scratch, reduced;
+    std::uint64_t tiles = 0;  // AtlasTiles::id of those that they were made for
     std::uint32_t first(std::uint32_t shift) const;    // level that has at most this resolution
     gpu::ImageView view(std::uint32_t level) const;
 };

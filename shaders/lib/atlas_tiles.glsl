@@ -1,5 +1,5 @@
-// Passes over the needed tiles of a chart of the atlas (passes/atlas_tiles.h). The includer's work groups have 64
-// invocations, 8 × 8 for texels; its push constants begin with `TilePush tiles`, and are called push.
+// Passes over the needed tiles of a chart of the atlas (passes/atlas_tiles.h). The includer's work groups have 64 invocations, 8 × 8
+// for tileTexel, or 256 along x; its push constants begin with `TilePush tiles`, and are called push.
 #ifndef CUTIS_ATLAS_TILES_GLSL
 #define CUTIS_ATLAS_TILES_GLSL
 
@@ -30,11 +30,12 @@ bool tileTexel(out ivec2 texel, out uint tile) {
     return all(greaterThanEqual(at, rect.xy)) && all(lessThan(at, rect.xy + rect.zw));
 }
 
-// The same at 1/2^shift of the resolution, 4^shift tiles a work group: a texel stands for a block of 2^shift × 2^shift, and is
-// one of the atlas in any case.
+// The same at 1/2^shift of the resolution, so many tiles a work group as its invocations are texels of: a texel stands for a block
+// of 2^shift × 2^shift, and is one of the atlas in any case.
 bool tileBlock(uint shift, out ivec2 texel, out uint tile) {
     uint perTile = 64u >> 2u * shift, side = ATLAS_TILE >> shift;
-    tile = listedTile(((gl_WorkGroupID.y * TILE_ROW + gl_WorkGroupID.x) << 2u * shift) + gl_LocalInvocationIndex / perTile);
+    uint perGroup = gl_WorkGroupSize.x * gl_WorkGroupSize.y / perTile;
+    tile = listedTile((gl_WorkGroupID.y * TILE_ROW + gl_WorkGroupID.x) * perGroup + gl_LocalInvocationIndex / perTile);
     uint within = gl_LocalInvocationIndex % perTile;
     uvec2 at = (atlasTiles[tile == TILE_UNNEEDED ? 0u : tile].corner >> shift) + uvec2(within % side, within / side);
     texel = ivec2(at);

@@ -7,12 +7,20 @@ const float kReach = 3.5;  // standard deviations
 // Variance, in texels², that bilinear lookup adds along each axis: ∫ f (1 - f) df.
 const float kLookupVariance = 1.0 / 6.0;
 
-// Of a kernel of standard deviation `sigma` over a source smooth over `smoothness`, both in texels and not below those of
-// any texel: with steps of s its last tap lies within kReach·σ + s, and with steps of one where that is rounded up.
+// Texels between the taps of a kernel of standard deviation `sigma` over a source smooth over `smoothness`, both in texels: a
+// source that is smooth over σ_s can be sampled every σ_s, since what would alias is below exp(-2π²).
+int tapStep(float sigma, float smoothness) {
+    return max(max(int(smoothness), 1), int(ceil(sigma * kReach / (float(MAX_TAPS) + 0.5))));
+}
+
+// Taps on either side; sigma: standard deviation in taps. What is cut off is beyond three of them, below 2e-4 of the weight.
+int tapCount(float sigma) { return clamp(int(sigma * kReach + 0.5), 1, MAX_TAPS); }
+
+// How far such a kernel reaches; sigma and smoothness not below those of any texel. Its last tap lies within kReach·σ and half
+// a step, where it has more than one.
 float kernelReach(float sigma, float smoothness) {
-    float step = max(max(floor(smoothness), 1.0), ceil(sigma * kReach / float(MAX_TAPS)));
-    float reach = sigma * kReach;
-    return step == 1.0 ? max(ceil(reach), 1.0) : floor(reach) + step;
+    float step = float(tapStep(sigma, smoothness));
+    return step == 1.0 ? float(tapCount(sigma)) : max(floor(sigma * kReach + 0.5 * step), step);
 }
 
 // Variances of a level's texture, in its texels² along two axes, before and after its blur from `previous` to `next` mm²; perMm:

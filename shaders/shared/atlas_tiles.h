@@ -47,7 +47,7 @@ struct SeamTexel {
 
 // The tiles of one chart that are needed up to one step, and the work groups for them.
 struct TileDispatch {
-    uvec3 groups[COARSEST_LEVEL + 1];  // one for 1, 4 and 16 tiles: 64 texels of full, half and a quarter of the resolution
+    uvec3 groups[COARSEST_LEVEL + 2];  // one for 4^i tiles: 64 texels of 1/2^i of the resolution, or 256 of twice that
     uint tiles;
 };
 

@@ -45,8 +45,9 @@ TEST_F(InspectTest, TexelsAreAsDenseAsTheStatsSay) {
     // The stats give the median over the atlas, this the mean over what is seen.
     EXPECT_NEAR(meanOf(density) * mmPerTexel_, 1, 0.5);
     const Picture stretch = inspected(Inspect::What::stretch);
-    for (std::size_t i = 0; i < stretch.values.size(); ++i)
+    for (std::size_t i = 0; i < stretch.values.size(); ++i) {
         if (stretch.values[i] != 0) EXPECT_GE(stretch.values[i], 0.999f);
+    }
     EXPECT_GT(meanOf(stretch), 1);
 }
 
