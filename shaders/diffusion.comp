@@ -31,21 +31,21 @@ layout(push_constant, scalar) uniform Push {
 #include "lib/atlas_tiles.glsl"
 #include "lib/blur_reach.glsl"
 
-// A symmetric kernel of 2·count + 1 taps, `step` texels apart along the axis on which the direction is longest. Weights are
-// q^(i²), one of the next by the last, as they are not divided by their sum until the end.
+// A symmetric kernel of 2·count + 1 taps, `step` texels apart along the axis on which the direction is longest. Its weights,
+// proportional to q^(i²) and each made from the one before, sum to 1, so that no sum of light is larger than the light.
 struct Kernel {
     int count;
     int step;
     float q;
+    float centre;      // weight
     float correction;  // moved from the centre to each first neighbour
 };
 
 // sigma: standard deviation in texels; smoothness: that of the source.
 Kernel makeKernel(float sigma, float smoothness) {
     Kernel k;
-    float taps;
     k.step = tapStep(sigma, smoothness);
-    taps = sigma / float(k.step);
+    float taps = sigma / float(k.step);
     k.count = tapCount(taps);
     float variance = taps * taps;
     k.q = exp(-0.5 / max(variance, 1e-6));
@@ -56,7 +56,8 @@ Kernel makeKernel(float sigma, float smoothness) {
         sum += 2.0 * weight;
         moment += 2.0 * weight * float(i * i);
     }
-    k.correction = 0.5 * (variance * sum - moment);
+    k.centre = 1.0 / sum;
+    k.correction = 0.5 * (variance - moment / sum);
     return k;
 }
 
@@ -66,8 +67,8 @@ struct Weights {
 };
 
 float firstWeight(Kernel k, out Weights w) {
-    w = Weights(1.0, k.q);
-    return 1.0 - 2.0 * k.correction;
+    w = Weights(k.centre, k.q);
+    return k.centre - 2.0 * k.correction;
 }
 
 // Of tap i, from 1 on.
@@ -80,14 +81,13 @@ float nextWeight(Kernel k, int i, inout Weights w) {
 // Variance that linear interpolation between texels adds across the direction of the taps.
 float interpolationVariance(Kernel k, float slope) {
     Weights w;
-    float sum = firstWeight(k, w), variance = 0.0;
+    firstWeight(k, w);
+    float variance = 0.0;
     for (int i = 1; i <= k.count; ++i) {
-        float weight = nextWeight(k, i, w);
         float f = fract(float(i * k.step) * slope);
-        sum += 2.0 * weight;
-        variance += 2.0 * weight * f * (1.0 - f);
+        variance += 2.0 * nextWeight(k, i, w) * f * (1.0 - f);
     }
-    return variance / sum;
+    return variance;
 }
 
 vec4 accumulated;
