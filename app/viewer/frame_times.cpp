@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "renderer/core/files.h"
 
@@ -27,8 +28,13 @@ nlohmann::ordered_json summary(const std::vector<double>& seconds) {
 
 }  // namespace
 
-void FrameTimes::addFrame(double seconds, bool turning) {
+void FrameTimes::addFrame(double seconds, bool turning, bool loading) {
+    if (std::exchange(first_, false)) {
+        firstFrame_ = seconds;
+        return;
+    }
     frames_.push_back(seconds);
+    if (loading) loadingFrames_.push_back(seconds);
     if (turning) turningFrames_.push_back(seconds);
 }
 
@@ -51,7 +57,9 @@ void FrameTimes::addPicture(const WorkerResult& picture, bool turning) {
 }
 
 void FrameTimes::write(const std::filesystem::path& file) const {
-    const nlohmann::ordered_json json{{"frame", summary(frames_)},
+    const nlohmann::ordered_json json{{"first_frame_ms", std::round(1e4 * firstFrame_) / 10},
+                                      {"frame", summary(frames_)},
+                                      {"frame_while_loading", summary(loadingFrames_)},
                                       {"frame_while_orbiting", summary(turningFrames_)},
                                       {"between_pictures_while_orbiting", summary(turningPictures_)},
                                       {"edit_to_first_picture", summary(firstPictures_)},

@@ -14,14 +14,15 @@ namespace cutis::app {
 class FrameTimes {
   public:
     // A frame of the interface took that long, all waiting for events left out [s]. `turning`: the view was
-    // dragged.
-    void addFrame(double seconds, bool turning);
+    // dragged. `loading`: a scene was being loaded, or the first picture of one was not there yet.
+    void addFrame(double seconds, bool turning, bool loading);
     // The document became that version, by a move of the view or by any other edit.
     void addEdit(std::uint64_t version, bool ofView);
     void addPicture(const WorkerResult& picture, bool turning);
-    // Milliseconds as JSON: of frames of the interface (median, 99th percentile, longest), between pictures
-    // while the view is dragged, and from an edit to its first and to its full picture, median and number of
-    // each. Throws Error.
+    // Milliseconds as JSON: of the first frame of the interface, which makes what all others use; of the
+    // others (median, 99th percentile, longest), and those while a scene is loaded; between pictures while
+    // the view is dragged, and from an edit to its first and to its full picture, median and number of each.
+    // Throws Error.
     void write(const std::filesystem::path& file) const;
 
   private:
@@ -33,8 +34,11 @@ class FrameTimes {
         bool shown = false;
     };
 
-    std::vector<double> frames_, turningFrames_, turningPictures_, firstPictures_, fullPictures_;  // seconds
-    std::optional<Edit> edit_;                                                                     // the last
+    bool first_ = true;
+    double firstFrame_ = 0;  // seconds, and so are
+    std::vector<double> frames_, loadingFrames_, turningFrames_, turningPictures_, firstPictures_,
+        fullPictures_;
+    std::optional<Edit> edit_;  // the last
     std::optional<Clock::time_point> lastPicture_;
 };
 

@@ -17,7 +17,8 @@ glm::dvec3 towards(const Placement& place) {
     return {std::sin(az) * std::cos(el), std::sin(el), std::cos(az) * std::cos(el)};
 }
 
-// Where the light stands and the point that it aims at: its subject, or what of its axis is next to the head.
+// Where the light stands and the point that it aims at: its subject, or the surface that its axis meets, or what of
+// the axis is next to the head.
 struct Beam {
     glm::dvec3 position, aim;
 };
@@ -29,6 +30,8 @@ Beam beamOf(const Session& session, const Light& light) {
             subject == "*" ? session.headCentre : headBounds(*session.geometry, subject).centre();
         return {centre + light.place->distance * towards(*light.place), centre};
     }
+    if (const std::optional<Hit> hit = pick(*session.geometry, {light.position, light.direction}))
+        return {light.position, hit->position};
     const glm::dvec3 toHead = session.headCentre - light.position;
     const double along = glm::dot(toHead, light.direction);
     return {light.position, light.position + (along > 0.01 ? along : glm::length(toHead)) * light.direction};

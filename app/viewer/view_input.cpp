@@ -95,7 +95,9 @@ void handleView(Session& session) {
 
     static LightHandle held;
     const std::vector<LightHandle> handles =
-        session.showHandles ? lightHandles(session, camera) : std::vector<LightHandle>();
+        session.showHandles && session.overlay.inspect.what != Inspect::What::lightMap
+            ? lightHandles(session, camera)
+            : std::vector<LightHandle>();
     int hovered = -1;  // a light lies over what it aims at
     for (std::size_t i = 0; i < handles.size(); ++i) {
         const bool ofLight = handles[i].part == LightHandle::Part::light;

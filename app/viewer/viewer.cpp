@@ -105,7 +105,8 @@ class Viewer {
             if (window_.beginFrame()) drawFrame();
             showNewest();
             saveNowAndThen();
-            times_.addFrame(std::chrono::duration<double>(Clock::now() - begun).count(), turning());
+            times_.addFrame(std::chrono::duration<double>(Clock::now() - begun).count(), turning(),
+                            loader_.loading() || !session_.picture);
         }
     }
 

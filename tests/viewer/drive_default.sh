@@ -20,7 +20,6 @@ press ctrl+z
 press ctrl+z
 press ctrl+z
 
-disturb_window 820 430
 press ctrl+shift+s
 answer "$folder/own.rig.json"
 until_true 20 "the rig is saved" test -s "$folder/own.rig.json"

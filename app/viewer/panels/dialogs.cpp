@@ -31,7 +31,8 @@ void drawPathDialog(
     ImGui::TextUnformatted(what);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 34);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    bool done = ImGui::InputText("##path", &session.dialogPath, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool done = ImGui::InputText("##path", &session.dialogPath,
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     ImGui::TextDisabled("%s", details);
     drawMore();
     ImGui::Spacing();

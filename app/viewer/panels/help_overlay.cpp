@@ -38,7 +38,7 @@ void drawHelp(Session& session) {
         "Middle or right drag: move the view.  Wheel: nearer or farther\n"
         "Double click: frame the person.  F: look at the point under the mouse");
     heading("Files");
-    ImGui::TextUnformatted("Drop a glTF scene, a rig or an HDR environment on the window to open it.");
+    ImGui::TextUnformatted("Drop a glTF scene, a rig, a skin file or an HDR environment on the window to open it.");
     ImGui::End();
 }
 

@@ -118,15 +118,20 @@ void drawFigures(const WorkerResult& picture) {
     ImGui::Text("%llu values", static_cast<unsigned long long>(stats.nonfinite));
 }
 
+std::string timeText(double milliseconds) {
+    char text[32];
+    const bool inSeconds = milliseconds >= 9999.95;
+    std::snprintf(text, sizeof text, inSeconds ? "%.2f s" : "%.1f ms", inSeconds ? milliseconds / 1000 : milliseconds);
+    return text;
+}
+
 void drawPasses(const RenderStats& stats) {
     double total = 0;
     for (const PassStats& pass : stats.passes) total += pass.gpuMs;
-    char title[64];
-    std::snprintf(title, sizeof title, "Runs: %.1f ms on the device", total);
-    heading(title);
+    heading(("Runs: " + timeText(total) + " on the device").c_str());
     if (!ImGui::BeginTable("passes", 2, ImGuiTableFlags_RowBg)) return;
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("00000.0 ms").x);
+    ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("0000.0 ms").x);
     for (const PassStats& pass : stats.passes) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
@@ -139,7 +144,7 @@ void drawPasses(const RenderStats& stats) {
         ImGui::TextDisabled("%s", pass.reason.c_str());
         ImGui::PopTextWrapPos();
         ImGui::TableNextColumn();
-        pass.runs ? ImGui::Text("%.1f ms", pass.gpuMs) : ImGui::TextDisabled("kept");
+        pass.runs ? ImGui::TextUnformatted(timeText(pass.gpuMs).c_str()) : ImGui::TextDisabled("kept");
     }
     ImGui::EndTable();
 }

@@ -79,7 +79,8 @@ void drawProfile(Session& session, std::size_t index, const std::string& name) {
     if (ImGui::BeginTable("profile", 5)) {
         ImGui::TableSetupColumn(fields::kVariance.unit);
         for (const char* channel : {"red", "green", "blue"}) ImGui::TableSetupColumn(channel);
-        ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::GetTextLineHeight());
+        const float cross = ImGui::CalcTextSize("x").x + 2 * ImGui::GetStyle().FramePadding.x;
+        ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, cross);
         ImGui::TableHeadersRow();
         std::size_t remove = profile.gaussians.size();
         for (std::size_t i = 0; i < profile.gaussians.size(); ++i) {
