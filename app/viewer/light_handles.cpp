@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <utility>
 
 #include "app/viewer/style.h"
 #include "renderer/scene/characters.h"
@@ -17,8 +18,8 @@ glm::dvec3 towards(const Placement& place) {
     return {std::sin(az) * std::cos(el), std::sin(el), std::cos(az) * std::cos(el)};
 }
 
-// Where the light stands and the point that it aims at: its subject, or the surface that its axis meets, or what of
-// the axis is next to the head.
+// Where the light stands and the point that it aims at: its subject, or the surface that its axis meets, or
+// what of the axis is next to the head.
 struct Beam {
     glm::dvec3 position, aim;
 };
@@ -129,16 +130,24 @@ void drawBeam(const Session& session, const Camera& camera, const std::vector<Li
         const ImVec2 at = handle.at;
         const float size = (active ? 7.f : 5.f) * scale;
         if (handle.part == Part::aim) {
-            draw.AddCircle(at, size, color, 0, 1.5f * scale);
-            draw.AddLine({at.x - 2 * size, at.y}, {at.x - size, at.y}, color, 1.5f * scale);
-            draw.AddLine({at.x + size, at.y}, {at.x + 2 * size, at.y}, color, 1.5f * scale);
-            draw.AddLine({at.x, at.y - 2 * size}, {at.x, at.y - size}, color, 1.5f * scale);
-            draw.AddLine({at.x, at.y + size}, {at.x, at.y + 2 * size}, color, 1.5f * scale);
+            // Twice, first wider and dark: skin is as light as the cross.
+            for (const bool under : {true, false}) {
+                const ImU32 ink = under ? IM_COL32(0, 0, 0, 130) : color;
+                const float width = (under ? 3.5f : 1.5f) * scale;
+                draw.AddCircle(at, size, ink, 0, width);
+                for (const auto& [x, y] :
+                     {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
+                    draw.AddLine({at.x + float(x) * size, at.y + float(y) * size},
+                                 {at.x + 2 * float(x) * size, at.y + 2 * float(y) * size}, ink, width);
+            }
         } else {
             const Light& light = session.light();
             const std::vector<ImVec2> ring = coneRing(session, camera, light, beamOf(session, light));
             draw.AddPolyline(ring.data(), static_cast<int>(ring.size()), accentColor(0.35f),
                              ImDrawFlags_Closed, scale);
+            const float edge = size + scale;
+            draw.AddRectFilled({at.x - edge, at.y - edge}, {at.x + edge, at.y + edge},
+                               IM_COL32(0, 0, 0, 130));
             draw.AddRectFilled({at.x - size, at.y - size}, {at.x + size, at.y + size}, color);
         }
         if (active)

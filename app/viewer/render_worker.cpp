@@ -89,12 +89,16 @@ RenderWorker::RenderWorker(std::function<Renderers()> open, std::function<void()
       }),
       thread_([this] { run(); }) {}
 
-RenderWorker::~RenderWorker() {
+void RenderWorker::end() {
     {
         const std::lock_guard lock(mutex_);
         ended_ = true;
     }
     changed_.notify_all();
+}
+
+RenderWorker::~RenderWorker() {
+    end();
     thread_.join();
     shadows_.wait();
 }

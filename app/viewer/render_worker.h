@@ -104,6 +104,8 @@ class RenderWorker {
     std::optional<WorkerResult> takeResult();
     std::vector<AsideResult> takeAside();
     WorkerStatus status() const;
+    // Begins nothing more. What is under way ends in the background; `working` says whether anything is.
+    void end();
     // Opens all that renders anew before the next picture, which is made from nothing: shaders have changed.
     void restart();
 

@@ -9,6 +9,7 @@
 
 #include "app/viewer/light_handles.h"
 #include "app/viewer/style.h"
+#include "app/viewer/view_layout.h"
 #include "renderer/scene/characters.h"
 #include "renderer/scene/rig.h"
 
@@ -17,13 +18,39 @@ namespace {
 
 enum class Drag { none, view, handle, wipe, place };
 
-void drawWipe(const Session& session, float x) {
+// Which picture is whose, where two are compared: left and right of a line, of each other, or in turn.
+void drawCompared(const Session& session, float wipe) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-    const float scale = static_cast<float>(session.uiScale);
+    const float scale = static_cast<float>(session.uiScale), gap = 8 * scale;
     const float top = float(session.view.y), bottom = float(session.view.y + session.view.height);
-    draw.AddLine({x, top}, {x, bottom}, accentColor(), 2 * scale);
-    draw.AddText({x - ImGui::CalcTextSize("A").x - 8 * scale, top + 8 * scale}, accentColor(), "A");
-    draw.AddText({x + 8 * scale, top + 8 * scale}, accentColor(), session.compared[1].stored ? "B" : "Now");
+    const float left = float(session.view.x), middle = left + float(session.view.width) / 2;
+    const char* other = session.compared[1].stored ? "B" : "Now";
+    const auto write = [&](float x, float y, const char* text) {
+        draw.AddText({x + 1, y + 1}, IM_COL32(0, 0, 0, 180), text);
+        draw.AddText({x, y}, accentColor(), text);
+    };
+    switch (session.compareMode) {
+        case CompareMode::wipe:
+            draw.AddLine({wipe, top}, {wipe, bottom}, accentColor(), 2 * scale);
+            write(wipe - ImGui::CalcTextSize("A").x - gap, top + gap, "A");
+            write(wipe + gap, top + gap, other);
+            break;
+        case CompareMode::sideBySide:
+            write(left + gap, top + float(session.view.height) / 4 + gap, "A");
+            write(middle + gap, top + float(session.view.height) / 4 + gap, other);
+            break;
+        case CompareMode::blink:
+            write(left + gap, top + gap, blinkShowsFirst() ? "A" : other);
+            break;
+        default:
+            break;
+    }
+}
+
+// What is shown is the scene where the view has it, so that handles lie on it.
+bool seesScene(const Session& session) {
+    const bool beside = session.compareMode == CompareMode::sideBySide && session.compared[0].stored;
+    return !beside && session.overlay.inspect.what != Inspect::What::lightMap;
 }
 
 // What dragging in the picture places the chosen light by: as chosen above the picture, or by the keys held.
@@ -94,10 +121,9 @@ void handleView(Session& session) {
     const Camera camera = currentCamera(session);
 
     static LightHandle held;
-    const std::vector<LightHandle> handles =
-        session.showHandles && session.overlay.inspect.what != Inspect::What::lightMap
-            ? lightHandles(session, camera)
-            : std::vector<LightHandle>();
+    const std::vector<LightHandle> handles = session.showHandles && seesScene(session)
+                                                 ? lightHandles(session, camera)
+                                                 : std::vector<LightHandle>();
     int hovered = -1;  // a light lies over what it aims at
     for (std::size_t i = 0; i < handles.size(); ++i) {
         const bool ofLight = handles[i].part == LightHandle::Part::light;
@@ -150,7 +176,7 @@ void handleView(Session& session) {
         turnRoundPointAt(session, camera, mouse);
 
     drawLightHandles(session, camera, handles, hovered);
-    if (wiping) drawWipe(session, wipeX);
+    if (session.compared[0].stored) drawCompared(session, wipeX);
 }
 
 }  // namespace cutis::app

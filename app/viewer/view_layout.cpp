@@ -59,6 +59,12 @@ Layout layOut(Session& session, float width, float height, float menuBar, float 
     return layout;
 }
 
+bool blinkShowsFirst() {
+    const double time =
+        std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::fmod(time, 2 * kBlinkPeriod) < kBlinkPeriod;
+}
+
 std::vector<PicturePart> pictureParts(const Session& session) {
     std::vector<PicturePart> parts = {{kRoomPicture, session.room, session.room}};
     parts.insert(parts.end(), session.thumbnails.begin(), session.thumbnails.end());
@@ -73,13 +79,9 @@ std::vector<PicturePart> pictureParts(const Session& session) {
     const int other = session.compared[1].linear ? kPictureB : current;
     PixelRect left = view, right = view;
     switch (session.compareMode) {
-        case CompareMode::blink: {
-            const double time =
-                std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-            const bool ofFirst = std::fmod(time, 2 * kBlinkPeriod) < kBlinkPeriod;
-            parts.push_back({ofFirst ? first : other, view, view});
+        case CompareMode::blink:
+            parts.push_back({blinkShowsFirst() ? first : other, view, view});
             break;
-        }
         case CompareMode::sideBySide:  // both whole, at half the size
             left.width = right.width = view.width / 2;
             left.height = right.height = view.height / 2;

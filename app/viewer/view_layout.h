@@ -15,6 +15,9 @@ struct Layout {
 // Puts session.room and session.view where they belong in a window of that size; panels may be hidden.
 Layout layOut(Session& session, float width, float height, float menuBar, float statusBar);
 
+// While two pictures blink: the first is shown now.
+bool blinkShowsFirst();
+
 // The pictures behind the interface: the view, as it is compared, and the panels' thumbnails.
 std::vector<PicturePart> pictureParts(const Session& session);
 

@@ -91,8 +91,11 @@ class Viewer {
         if (session_.writing.valid()) session_.writing.wait();
     }
 
-    // A picture is under way: only its end can be waited for.
-    bool rendering() const { return worker_.status().working; }
+    // No picture is begun any more. One is under way: only its end can be waited for.
+    bool endsRendering() {
+        worker_.end();
+        return worker_.status().working;
+    }
 
   private:
     void runUntilQuit() {
@@ -449,7 +452,7 @@ class Viewer {
 void runViewer(const Request& request) {
     Viewer viewer(request);
     viewer.run();
-    if (!viewer.rendering()) return;
+    if (!viewer.endsRendering()) return;
     // Nobody waits for a picture that nobody will see. All files are written; the system takes back the rest.
     std::fflush(nullptr);
     std::quick_exit(gpu::validationMessages() ? 1 : 0);

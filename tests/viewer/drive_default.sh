@@ -5,8 +5,8 @@ set -euo pipefail
 program=$1 folder=$2
 . "$(dirname "${BASH_SOURCE[0]}")/screen.sh"
 
-# Panels take 580 pixels of the width: the picture is small, which is what keeps this short.
-open_viewer "$program" view default --device cpu --size 820x430 --ui-scale 1
+# Panels take 580 pixels of the width: the picture is small, which is what keeps this short. So does a dark sky.
+open_viewer "$program" view default --env none --device cpu --size 820x430 --ui-scale 1
 until_true 90 "the panels" panels_shown
 
 press bracketright

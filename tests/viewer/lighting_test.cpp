@@ -110,6 +110,19 @@ std::shared_ptr<const Picture> plain(float red, float alpha) {
     return std::make_shared<const Picture>(Picture{2, 1, 4, {red, 0, 0, alpha, red, 0, 0, alpha}});
 }
 
+TEST(Aim, TheLightStandsFreeAndShinesAtThePoint) {
+    Document document;
+    Light& light = document.rig.lights.at(static_cast<std::size_t>(addLight(document, LightType::spot)));
+    const double intensity = light.intensity;
+    aimAt(light, {0, 2, 1}, {0, 1, 0});
+    EXPECT_FALSE(light.place);
+    EXPECT_EQ(light.position, glm::dvec3(0, 2, 1));
+    EXPECT_NEAR(glm::length(light.direction - glm::normalize(glm::dvec3(0, -1, -1))), 0, 1e-12);
+    EXPECT_EQ(light.intensity, intensity);
+    aimAt(light, {0, 1, 0}, {0, 1, 0});  // nowhere to shine to: nothing happens
+    EXPECT_EQ(light.position, glm::dvec3(0, 2, 1));
+}
+
 TEST(Mixer, APictureIsTheSumOfItsLights) {
     Document document = mixedDocument();
     std::vector<Contribution> own = contributionsOf(document);
