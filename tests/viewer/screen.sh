@@ -59,7 +59,8 @@ disturb_window() { # WIDTH HEIGHT, as before
 }
 close_viewer() {
     press ctrl+q
-    for _ in $(seq 200); do kill -0 "$viewer" 2>/dev/null || break; sleep 0.1; done
+    # Mesa writes its shader cache on a thread of the lowest priority, which on a busy machine takes its time to end.
+    for _ in $(seq 600); do kill -0 "$viewer" 2>/dev/null || break; sleep 0.1; done
     kill -0 "$viewer" 2>/dev/null && fail "the viewer does not end"
     wait "$viewer"
 }
