@@ -32,6 +32,7 @@ layout(binding = 12, scalar) readonly buffer EnvironmentBuffer { EnvironmentSett
 
 layout(push_constant, scalar) uniform Push {
     TilePush tiles;
+    uint lights;  // 1: their sums are there
 } push;
 
 #include "lib/atlas_tiles.glsl"
@@ -46,7 +47,8 @@ void main() {
     if (place.w == 0.0) return;
     Material material = materials[draws[uint(place.w) - 1u].material];
     vec3 n = decodeOctahedral(texelFetch(normal, texel, 0).zw);  // with the normal map
-    vec3 entering = imageLoad(irradiance, texel).rgb, arriving = imageLoad(incident, texel).rgb;
+    vec3 entering = vec3(0.0), arriving = vec3(0.0);
+    if (push.lights != 0u) entering = imageLoad(irradiance, texel).rgb, arriving = imageLoad(incident, texel).rgb;
     float thickness = kNoThickness;
 #ifdef TRANSLUCENCY
     thickness = texelFetch(entry, texel, 0).z;

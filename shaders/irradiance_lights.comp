@@ -34,7 +34,7 @@ layout(push_constant, scalar) uniform Push {
     TilePush tiles;
     uint firstSample;
     uint light;       // that the samples belong to
-    uint startsLight;  // 1: these are its first samples
+    uint starts, startsLight;  // 1: these are the first samples of all, and of the light
     uint firstView, groupCount;  // views of the first sample; one a receiver group
 } push;
 
@@ -86,6 +86,7 @@ void main() {
     p = place.xyz;
     entering = imageLoad(irradiance, texel);
     arriving = imageLoad(incident, texel);
+    if (push.starts != 0u) entering = arriving = vec4(0.0);
     if (push.startsLight != 0u) entering.a = arriving.a = 0.0;
     addSample(0u);
     if (SAMPLES > 1u) addSample(1u);

@@ -31,7 +31,7 @@ layout(push_constant, scalar) uniform Push {
     uint entryStep;  // of the tiles where light enters
     uint firstSample;
     uint firstView, groupCount;  // views of the first sample; one a receiver group
-    uint last;                   // 1: no samples follow
+    uint first, last;            // 1: there are no samples before, or after
 } push;
 
 #include "lib/atlas_tiles.glsl"
@@ -125,7 +125,7 @@ void main() {
     listed = listed && (material.flags & MATERIAL_TRANSLUCENT) != 0u;
     vec3 n = decodeOctahedral(texelFetch(normal, texel, 0).xy);
     vec3 p = place.xyz;
-    vec4 before = imageLoad(entry, texel);
+    vec4 before = push.first != 0u ? vec4(-1.0, -1.0, kNoThickness, 0.0) : imageLoad(entry, texel);
     EntryPoint thinnest = EntryPoint(before.z, before.xy);
     [[unroll]] for (uint i = 0u; i < SAMPLES; ++i) {
         LightSampleData light = lights[push.firstSample + i];

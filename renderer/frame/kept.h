@@ -24,10 +24,14 @@ struct Changes {
     std::set<Input> inputs;
     std::set<Resource> resources;
     bool needs = false;
+    // Of a row that works group by group: a flag for each group of receivers, empty for all of them (frame/changed_groups.h).
+    std::vector<bool> groups;
     // Nothing but some of these.
+    bool onlyInputs(const std::set<Input>& these) const {
+        return !first && !needs && std::includes(these.begin(), these.end(), inputs.begin(), inputs.end());
+    }
     bool only(const std::set<Input>& these, const std::set<Resource>& andThese = {}) const {
-        return !first && !needs && std::includes(these.begin(), these.end(), inputs.begin(), inputs.end()) &&
-               std::includes(andThese.begin(), andThese.end(), resources.begin(), resources.end());
+        return onlyInputs(these) && std::includes(andThese.begin(), andThese.end(), resources.begin(), resources.end());
     }
 };
 

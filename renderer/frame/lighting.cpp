@@ -99,6 +99,14 @@ void readLighting(FrameContext& frame) {
     findNeededMaps(frame);
 }
 
+std::vector<LightSample> shadowedSamples(const FrameContext& frame) {
+    std::vector<LightSample> shadowed;
+    for (const LightSample& sample : frame.lighting.samples) {
+        if (sample.shadow) shadowed.push_back(sample);
+    }
+    return shadowed;
+}
+
 void uploadLightSamples(FrameContext& frame) {
     LightMaps& lights = frame.lights;
     std::vector<shared::LightSampleData> samples;

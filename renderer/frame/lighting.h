@@ -37,6 +37,9 @@ struct SkyDirections {
 // black, so that every pass runs and nothing changes.
 void readLighting(FrameContext& frame);
 
+// Those of frame.lighting that have light maps.
+std::vector<LightSample> shadowedSamples(const FrameContext& frame);
+
 // Rows of the pass table: what shaders read of it.
 void uploadLightSamples(FrameContext& frame);
 void makeEnvironmentMaps(FrameContext& frame);

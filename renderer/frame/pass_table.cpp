@@ -81,10 +81,7 @@ std::vector<std::uint64_t> contentsOf(const std::vector<shared::LightView>& view
 // Draws the views that no layer holds yet. Only lights and poses may have changed for a layer to stay, and of those whose
 // view shows it neither.
 void lightMapsRow(FrameContext& frame) {
-    std::vector<LightSample> shadowed;
-    for (const LightSample& sample : frame.lighting.samples) {
-        if (sample.shadow) shadowed.push_back(sample);
-    }
+    const std::vector<LightSample> shadowed = shadowedSamples(frame);
     LightMaps& maps = frame.lights;
     if (!frame.changes->only({Input::lightPlaces, Input::lightMapsNeeded}, {Resource::meshes})) {
         frame.lightMapLayers.forget();
@@ -127,8 +124,8 @@ void lightMapsRow(FrameContext& frame) {
 }
 
 void surfaceRow(FrameContext& frame) {
-    frame.surface = recordSurface(*frame.device, *frame.commands, frame.scene.buffers, frame.scene.charts,
-                                  frame.atlas.size, levelShifts(frame.scene.charts, reducesLevels(*frame.settings)), frame.tiles);
+    recordSurface(*frame.device, *frame.commands, frame.scene.buffers, frame.scene.charts, frame.atlas.size,
+                  levelShifts(frame.scene.charts, reducesLevels(*frame.settings)), frame.tiles, frame.surface);
 }
 
 // Calls body(tile) for the parts of the picture.
@@ -177,6 +174,7 @@ void environmentVisibilityRow(FrameContext& frame) {
                                 .vertexCounts = vertexCounts,
                                 .groups = frame.groups,
                                 .groupsSeen = frame.groupsSeen,
+                                .groupsChanged = frame.changes->groups,
                                 .casters = frame.geometry.bounds,
                                 .origin = frame.geometry.origin,
                                 .probeCount = frame.geometry.probeCount,
@@ -191,7 +189,7 @@ void environmentVisibilityRow(FrameContext& frame) {
     for (const DirectionalFlux& from : frame.sky.arriving) {
         arriving.push_back({glm::vec3(from.flux), glm::vec3(rotateAboutY(from.direction, settings.rotation))});
     }
-    frame.visibility = recordEnvironmentVisibility(*frame.device, *frame.commands, input, parts);
+    recordEnvironmentVisibility(*frame.device, *frame.commands, input, parts, frame.visibility);
     recordEnvironmentOcclusion(*frame.device, *frame.commands, input, parts, arriving, frame.visibility);
 }
 
@@ -318,7 +316,8 @@ std::vector<PassRow> rowsOfTheFrame() {
     return {
         {.name = "surface", .phase = Phase::frame, .need = Need::skin, .inputs = {I::materials, I::levels},
          .reads = {R::meshes, R::layout, R::draws, R::textures}, .readsIf = {R::seams, R::stretch}, .writes = {R::surface}, .record = surfaceRow,
-         .forget = forgetSurface},
+         .forget = forgetSurface,
+         .byGroup = true},
         {.name = "visible", .phase = Phase::frame, .need = Need::hiddenSkin, .inputs = {I::camera, I::materials},
          .reads = {R::viewBuffers, R::surface}, .writes = {R::seen}, .record = visibleRow},
         {.name = "opposite", .phase = Phase::frame, .need = Need::oppositeSides, .inputs = {I::profiles},
@@ -330,7 +329,8 @@ std::vector<PassRow> rowsOfTheFrame() {
          .forget = forgetLightMaps, .amends = true},
         {.name = "thickness", .phase = Phase::frame, .need = Need::translucency,
          .inputs = {I::lightPlaces, I::profiles}, .reads = {R::surface, R::lightMaps}, .readsIf = {R::seen},
-         .updates = {R::seen}, .writes = {R::thickness}, .record = thicknessRow, .forget = forgetThickness},
+         .updates = {R::seen}, .writes = {R::thickness}, .record = thicknessRow, .forget = forgetThickness,
+         .byGroup = true},
         {.name = "needed_texels", .phase = Phase::frame, .need = Need::hiddenSkin, .inputs = {I::profiles, I::chain},
          .reads = {R::surface, R::seen}, .readsIf = {R::thickness}, .updates = {R::seen}, .writes = {R::tiles},
          .record = neededTexelsRow},
@@ -338,17 +338,20 @@ std::vector<PassRow> rowsOfTheFrame() {
          .inputs = {I::environment, I::environmentRotation, I::groupsSeen, I::materials},
          .reads = {R::meshes, R::draws, R::ranges, R::textures, R::occluders, R::skyDirections},
          .readsIf = {R::surface, R::tiles}, .writes = {R::visibility}, .record = environmentVisibilityRow,
-         .forget = forgetVisibility},
+         .forget = forgetVisibility,
+         .byGroup = true},
         {.name = "irradiance", .phase = Phase::frame, .need = Need::litSkin, .inputs = {I::skinLayer, I::skinMix},
          .reads = {R::surface, R::lights},
          .readsIf = {R::tiles, R::thickness, R::lightMaps, R::visibility, R::environmentMaps, R::environmentSettings},
-         .variants = {Need::lights}, .writes = {R::irradiance}, .record = irradianceRow, .forget = forgetIrradiance},
+         .variants = {Need::lights}, .writes = {R::irradiance}, .record = irradianceRow, .forget = forgetIrradiance,
+         .byGroup = true},
         {.name = "diffusion", .phase = Phase::frame, .need = Need::litSkin, .inputs = {I::profiles, I::chain},
          .reads = {R::surface, R::irradiance}, .writes = {R::levels}, .record = diffusionRow, .forget = forgetLevels,
-         .amends = true},
+         .amends = true, .byGroup = true},
         {.name = "exitance", .phase = Phase::frame, .need = Need::litSkin, .inputs = {I::profiles, I::chain},
          .reads = {R::levels}, .readsIf = {R::thickness}, .writes = {R::exitance}, .record = exitanceRow,
-         .forget = forgetExitance},
+         .forget = forgetExitance,
+         .byGroup = true},
         {.name = "composite", .phase = Phase::frame, .need = Need::always, .inputs = {I::camera},
          .reads = {R::meshes, R::textures, R::materials, R::draws, R::ranges, R::lights, R::viewBuffers, R::target},
          .readsIf = {R::exitance, R::lightMaps, R::visibility, R::environmentMaps, R::environmentSettings},

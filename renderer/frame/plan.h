@@ -94,6 +94,7 @@ struct PassRow {
     void (*record)(FrameContext&);
     void (*forget)(FrameContext&) = nullptr;  // frees what it wrote: before it runs again, and when it is left out
     bool amends = false;                      // it replaces only what has changed of what it wrote, and frees that itself
+    bool byGroup = false;                     // where nothing but poses has changed it does so too, for the groups in Changes::groups
 };
 
 // Every pass there is, in the order in which they run.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "renderer/frame/camera.h"
+#include "renderer/frame/changed_groups.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/inputs.h"
 #include "renderer/frame/results.h"
@@ -51,6 +52,7 @@ NeedsInput factsOf(const FrameContext& frame) {
 struct Renderer::State {
     FrameContext frame;
     Kept kept;
+    ChangedGroups changedGroups;
     std::uint64_t geometry = 0;      // hashGeometry of frame.geometry
     std::uint64_t poseRevision = 0;  // that it is in
     std::map<const PassRow*, std::uint64_t> bytes;
@@ -126,12 +128,14 @@ void Renderer::State::drop(const Plan& plan) {
 }
 
 bool Renderer::State::record(const PassRow& row, const Changes& changes) {
-    if (row.forget && (changes.first || !row.amends)) row.forget(frame);
+    const bool whole = changes.first || !(row.amends || !changes.groups.empty());
+    if (row.forget && whole) row.forget(frame);
     const std::uint64_t before = frame.device->bytesAllocated();
     frame.changes = &changes;
+    frame.tiles.changed = changes.groups;
     row.record(frame);
     frame.changes = nullptr;
-    if (changes.first || !row.amends) bytes[&row] = frame.device->bytesAllocated() - before;
+    if (whole) bytes[&row] = frame.device->bytesAllocated() - before;
     return true;
 }
 
@@ -187,6 +191,11 @@ RenderResult Renderer::State::render(const RenderInput& input, const RenderSetti
     const Plan plan = makePlan(frame.needs);
     const InputHashes inputs = hashInputs(frame);
     std::vector<RowDecision> decisions = kept.decide(plan, frame.needs, inputs);
+    const std::vector<bool> groups = changedGroups.find(frame, inputs);
+    for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+        const Changes& changes = decisions[i].changes;
+        if (plan.rows[i]->byGroup && changes.onlyInputs({})) decisions[i].changes.groups = groups;
+    }
     drop(plan);
     prepare(plan, decisions);
     const int repeats = std::max(settings.repeats, 1);
@@ -207,10 +216,16 @@ RenderResult Renderer::State::render(const RenderInput& input, const RenderSetti
     }
     result.stats.frameMs = millisecondsSince(frameStart);
     kept.note(plan, frame.needs, hashInputs(frame));  // some follow from the layout that is there now
+    changedGroups.note();
 
     for (std::size_t i = 0; i < plan.rows.size(); ++i) {
         const PassRow& row = *plan.rows[i];
         PassStats stats = statsOf(row, plan.reasons[i], decisions[i].run);
+        const std::vector<bool>& changed = decisions[i].changes.groups;
+        if (!changed.empty() && decisions[i].run) {
+            stats.reason += "; of " + std::to_string(changed.size()) + " groups, " +
+                            std::to_string(std::count(changed.begin(), changed.end(), true)) + " changed";
+        }
         for (const std::vector<gpu::PassTiming>& repeat : timings) {
             for (const gpu::PassTiming& timing : repeat) {
                 if (timing.name != stats.name) continue;

@@ -32,8 +32,10 @@ struct AtlasTiles {
     gpu::Buffer list, counts, dispatches;
     std::vector<std::uint32_t> receiverGroups;  // a chart
     std::uint32_t count = 0;                    // of tiles, needed or not
+    std::vector<bool> changed;  // of the receiver groups: what passes run on, keeping what they wrote elsewhere. Empty: all
     std::vector<std::uint32_t> shifts;  // of each level of diffusion: its side is the atlas' / 2^shift
 
+    bool runsOn(std::uint32_t chart) const { return changed.empty() || changed[receiverGroups[chart]]; }
     std::uint32_t seen() const { return 0; }
     std::uint32_t entries() const { return 1; }
     std::uint32_t lookups() const { return 2; }
@@ -75,6 +77,7 @@ void dispatchTiles(gpu::Commands& commands, const gpu::Program& program, const g
                    Push push, const AtlasTiles& tiles, std::uint32_t step, std::uint32_t shift = 0) {
     const gpu::Bindings all = withTiles(bindings, tiles);
     for (std::uint32_t chart = 0; chart < tiles.receiverGroups.size(); ++chart) {
+        if (!tiles.runsOn(chart)) continue;
         push.tiles = tilePush(tiles, chart, step);
         commands.dispatchIndirect(program, all, push, tiles.dispatches, tileGroups(program, push.tiles, shift));
     }

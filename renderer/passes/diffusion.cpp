@@ -51,8 +51,10 @@ void recordCoarseStretch(gpu::Device& device, gpu::Commands& commands, const Atl
     for (std::uint32_t shift = 1; shift <= kCoarseLevels; ++shift) {
         if (std::find(tiles.shifts.begin(), tiles.shifts.end(), shift) == tiles.shifts.end()) continue;
         gpu::Image& coarse = surface.coarseStretch[shift - 1];
-        coarse = coarseImage(device, "coarse stretch", surface.size, shift);
-        commands.clear(coarse);
+        if (tiles.changed.empty()) {
+            coarse = coarseImage(device, "coarse stretch", surface.size, shift);
+            commands.clear(coarse);
+        }
         dispatchTiles(
             commands, device.program("diffusion_reduce.comp+STRETCH", {{0, shift}, {1, 1u << shift}}),
             {{"source", surface.stretch}, {"target", coarse}}, ReducePush{}, tiles, tiles.seen(), shift);

@@ -26,23 +26,28 @@ struct OcclusionPush {
     std::uint32_t firstVertex, vertexCount, firstProbe, probeCount;  // of a draw
 };
 
+bool changes(const VisibilityInput& input, std::size_t group) {
+    return input.groupsChanged.empty() || input.groupsChanged[group];
+}
+
 // Calls visit(draw) for every draw whose vertices are probes that are seen.
 template <class Visit>
 void forEachProbeDraw(const VisibilityInput& input, Visit visit) {
     for (std::size_t d = 0; d < input.draws.size(); ++d) {
-        if (input.draws[d].chart == shared::NO_CHART && input.groupsSeen[input.draws[d].receiverGroup]) visit(d);
+        const std::uint32_t group = input.draws[d].receiverGroup;
+        if (input.draws[d].chart == shared::NO_CHART && input.groupsSeen[group] && changes(input, group)) visit(d);
     }
 }
 
 }  // namespace
 
-EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Commands& commands,
-                                                  const VisibilityInput& input,
-                                                  std::span<const glm::vec4> directions) {
-    EnvironmentVisibility result;
+void recordEnvironmentVisibility(gpu::Device& device, gpu::Commands& commands, const VisibilityInput& input,
+                                 std::span<const glm::vec4> directions, EnvironmentVisibility& result) {
+    const bool whole = input.groupsChanged.empty();
+    if (whole) result = {};
     result.directions = static_cast<int>(directions.size());
     const auto words = static_cast<std::uint32_t>((directions.size() + kBatch - 1) / kBatch);
-    if (input.surface) {
+    if (input.surface && whole) {
         const auto half = static_cast<std::uint32_t>((input.surface->size + 1) / 2);
         result.visibility = gpu::Image(device, {.name = "environment visibility",
                                                 .format = VK_FORMAT_R32_UINT,
@@ -50,8 +55,10 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
                                                 .height = half,
                                                 .layers = words});
     }
-    result.vertexVisibility = gpu::Buffer(
-        device, {.name = "vertex visibility", .bytes = std::uint64_t(input.probeCount) * words * 4});
+    if (whole) {
+        result.vertexVisibility = gpu::Buffer(
+            device, {.name = "vertex visibility", .bytes = std::uint64_t(input.probeCount) * words * 4});
+    }
 
     // Views: direction-major within a group, so that a batch of one group is one run of views.
     std::vector<shared::LightView> views;
@@ -80,9 +87,12 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
         const std::uint32_t groupCount = std::min(kGroupBatch, groups - first);
         const auto seen = input.groupsSeen.begin() + first;
         if (std::none_of(seen, seen + groupCount, [](bool s) { return s; })) continue;
+        bool any = false;
+        for (std::uint32_t g = first; g < first + groupCount; ++g) any |= changes(input, g);
+        if (!any) continue;
         for (std::uint32_t word = 0; word < words; ++word) {
             for (std::uint32_t g = first; g < first + groupCount; ++g) {
-                if (!input.groupsSeen[g]) continue;
+                if (!input.groupsSeen[g] || !changes(input, g)) continue;
                 recordLightMaps(device, commands, *input.scene,
                                 {.depth = &depth,
                                  .viewBuffer = &viewBuffer,
@@ -108,7 +118,7 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
                 for (std::uint32_t chart = 0; chart < input.tiles->receiverGroups.size(); ++chart) {
                     // Of what is not seen no tile is needed.
                     const std::uint32_t group = input.tiles->receiverGroups[chart];
-                    if (!hasMaps(group) && input.groupsSeen[group]) continue;
+                    if ((!hasMaps(group) && input.groupsSeen[group]) || !changes(input, group)) continue;
                     push.tiles = tilePush(*input.tiles, chart, input.tiles->probes());
                     const gpu::Program& program = device.program("environment_visibility.comp");
                     commands.dispatchIndirect(program, bindings, push, input.tiles->dispatches,
@@ -132,7 +142,6 @@ EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Comm
             });
         }
     }
-    return result;
 }
 
 void recordEnvironmentOcclusion(gpu::Device& device, gpu::Commands& commands, const VisibilityInput& input,
@@ -143,6 +152,7 @@ void recordEnvironmentOcclusion(gpu::Device& device, gpu::Commands& commands, co
     commands.upload(directionBuffer, std::as_bytes(directions));
     const gpu::Buffer arrivingBuffer(device, {.name = "sky light", .bytes = arriving.size_bytes()});
     commands.upload(arrivingBuffer, std::as_bytes(arriving));
+    const bool whole = input.groupsChanged.empty();
     OcclusionPush push{{}, 0, 0, 0, 0, input.probeCount};
     const auto words = static_cast<std::uint32_t>(directions.size() / kBatch);
     if (input.surface) {
@@ -151,11 +161,13 @@ void recordEnvironmentOcclusion(gpu::Device& device, gpu::Commands& commands, co
             return gpu::Image(
                 device, {.name = name, .format = format, .width = half, .height = half, .layers = layers});
         };
-        visibility.occlusion = image("environment occlusion", VK_FORMAT_R16G16B16A16_SFLOAT);
-        visibility.openSky = image("open sky", VK_FORMAT_R16G16B16A16_SFLOAT);
+        if (whole) {
+            visibility.occlusion = image("environment occlusion", VK_FORMAT_R16G16B16A16_SFLOAT);
+            visibility.openSky = image("open sky", VK_FORMAT_R16G16B16A16_SFLOAT);
+            commands.clear(visibility.occlusion);
+            commands.clear(visibility.openSky);
+        }
         const gpu::Image sums = image("environment sums", VK_FORMAT_R32G32B32A32_SFLOAT, 3);
-        commands.clear(visibility.occlusion);
-        commands.clear(visibility.openSky);
         const gpu::Bindings bindings = withTiles({{"position", input.surface->position},
                                                   {"normal", input.surface->normal},
                                                   {"visibility", visibility.visibility},
@@ -168,6 +180,7 @@ void recordEnvironmentOcclusion(gpu::Device& device, gpu::Commands& commands, co
                                                  *input.tiles);
         for (push.word = 0; push.word < words; ++push.word) {
             for (std::uint32_t chart = 0; chart < input.tiles->receiverGroups.size(); ++chart) {
+                if (!changes(input, input.tiles->receiverGroups[chart])) continue;
                 push.tiles = tilePush(*input.tiles, chart, input.tiles->probes());
                 const gpu::Program& program = device.program("environment_occlusion.comp");
                 commands.dispatchIndirect(program, bindings, push, input.tiles->dispatches,
@@ -175,8 +188,10 @@ void recordEnvironmentOcclusion(gpu::Device& device, gpu::Commands& commands, co
             }
         }
     }
-    visibility.probes = gpu::Buffer(
-        device, {.name = "probes", .bytes = std::uint64_t(input.probeCount) * 2 * sizeof(glm::vec4)});
+    if (whole) {
+        visibility.probes = gpu::Buffer(
+            device, {.name = "probes", .bytes = std::uint64_t(input.probeCount) * 2 * sizeof(glm::vec4)});
+    }
     const gpu::Buffer sums(device, {.name = "environment sums",
                                     .bytes = std::uint64_t(input.probeCount) * 3 * sizeof(glm::vec4)});
     const gpu::Program& program = device.program("environment_occlusion.comp+VERTICES");

@@ -21,6 +21,7 @@ struct VisibilityInput {
     std::span<const std::uint32_t> vertexCounts;  // of each draw
     std::span<const Bounds> groups;               // receivers, world
     std::vector<bool> groupsSeen;                 // of them; some are. The others are left out
+    std::vector<bool> groupsChanged;              // of them; the others keep what they have. Empty: all
     Bounds casters;                               // world
     glm::dvec3 origin{0};
     std::uint32_t probeCount = 0;  // vertices that are not skin
@@ -29,10 +30,9 @@ struct VisibilityInput {
 };
 
 // Fills the bits of `directions` (xyz: unit, towards the sky; w: solid angle that it stands for, sr;
-// shared::VISIBILITY_DIRECTIONS of them).
-EnvironmentVisibility recordEnvironmentVisibility(gpu::Device& device, gpu::Commands& commands,
-                                                  const VisibilityInput& input,
-                                                  std::span<const glm::vec4> directions);
+// shared::VISIBILITY_DIRECTIONS of them), in what is there where not all groups have changed.
+void recordEnvironmentVisibility(gpu::Device& device, gpu::Commands& commands, const VisibilityInput& input,
+                                 std::span<const glm::vec4> directions, EnvironmentVisibility& visibility);
 
 // Fills occlusion, openSky and probes from the bits and from what arrives around each direction (already
 // rotated).

@@ -18,8 +18,12 @@ void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuf
                     const SurfaceImages& surface, const AtlasTiles& tiles, ThicknessStorage storage,
                     SkinLight& light) {
     const auto size = static_cast<std::uint32_t>(surface.size);
-    light.exitance = gpu::Image(
-        device, {.name = "exitance", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
+    if (tiles.changed.empty()) {
+        light.exitance = gpu::Image(
+            device, {.name = "exitance", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
+        // Whatever is not seen must read as uncovered.
+        commands.clear(light.exitance);
+    }
     light.nonfinite = gpu::Buffer(device, {.name = "values that are not finite", .bytes = sizeof(std::uint32_t)});
     commands.fill(light.nonfinite, 0);
     gpu::Bindings bindings{{"stretch", surface.stretch},
@@ -35,8 +39,6 @@ void recordExitance(gpu::Device& device, gpu::Commands& commands, const SceneBuf
         bindings.push_back({"position", surface.position});
         bindings.push_back({"normal", surface.normal});
     }
-    // Whatever is not seen must read as uncovered.
-    commands.clear(light.exitance);
     constexpr const char* kNames[] = {"levels", "halfLevels", "quarterLevels"};
     constexpr const char* kFeatures[] = {"+FULL", "+HALF", "+QUARTER"};
     for (std::uint32_t shift = 0; shift <= kCoarseLevels; ++shift) {

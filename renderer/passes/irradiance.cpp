@@ -10,11 +10,12 @@ namespace {
 
 struct LightsPush {
     shared::TilePush tiles;
-    std::uint32_t firstSample, light, startsLight, firstView, groupCount;
+    std::uint32_t firstSample, light, starts, startsLight, firstView, groupCount;
 };
 
 struct IrradiancePush {
     shared::TilePush tiles;
+    std::uint32_t lights;
 };
 
 // Adds the light samples, a few at a time, and makes light.visibility when any has a map.
@@ -31,14 +32,16 @@ void recordLights(gpu::Device& device, gpu::Commands& commands, const Irradiance
                            {"incident", light.incident}};
     gpu::Bindings shadowed = bindings;
     if (lights.depth) {
-        const auto size = static_cast<std::uint32_t>(input.surface->size);
-        light.visibility = gpu::Image(device, {.name = "light visibility",
-                                               .format = VK_FORMAT_R8_UNORM,
-                                               .width = size,
-                                               .height = size,
-                                               .layers = std::max(lights.lightCount, 1u)});
-        // Lights without shadow arrive.
-        commands.clear(light.visibility, gpu::ClearValue(1, 1, 1, 1));
+        if (input.tiles->changed.empty()) {
+            const auto size = static_cast<std::uint32_t>(input.surface->size);
+            light.visibility = gpu::Image(device, {.name = "light visibility",
+                                                   .format = VK_FORMAT_R8_UNORM,
+                                                   .width = size,
+                                                   .height = size,
+                                                   .layers = std::max(lights.lightCount, 1u)});
+            // Lights without shadow arrive.
+            commands.clear(light.visibility, gpu::ClearValue(1, 1, 1, 1));
+        }
         shadowed.push_back({"LightViewBuffer", lights.views});
         shadowed.push_back({"lightVisibility", light.visibility});
         shadowed.push_back({"lightDepthCompare", depthComparison(device, lights.depth)});
@@ -47,8 +50,13 @@ void recordLights(gpu::Device& device, gpu::Commands& commands, const Irradiance
     const AtlasTiles& tiles = *input.tiles;
     for (const LightRun& run : lights.runs) {
         const std::string shader = run.shadow ? "irradiance_lights.comp+SHADOWS" : "irradiance_lights.comp";
-        const LightsPush push{
-            {}, run.firstSample, run.light, run.startsLight ? 1u : 0u, run.firstView, lights.groupCount};
+        const LightsPush push{{},
+                              run.firstSample,
+                              run.light,
+                              &run == &lights.runs.front() ? 1u : 0u,
+                              run.startsLight ? 1u : 0u,
+                              run.firstView,
+                              lights.groupCount};
         dispatchTiles(commands, device.program(shader, {{0, run.sampleCount}}),
                       run.shadow ? shadowed : bindings, push, tiles, tiles.lit());
     }
@@ -58,16 +66,17 @@ void recordLights(gpu::Device& device, gpu::Commands& commands, const Irradiance
 
 void recordIrradiance(gpu::Device& device, gpu::Commands& commands, const IrradianceInput& input,
                       SkinLight& light) {
-    const auto size = static_cast<std::uint32_t>(input.surface->size);
-    const auto image = [&](const char* name) {
-        return gpu::Image(
-            device, {.name = name, .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
-    };
-    light.irradiance = image("irradiance");
-    light.incident = image("incident");
-    // Sums begin at 0; and what lies beyond the needed tiles is read with weight 0.
-    commands.clear(light.irradiance);
-    commands.clear(light.incident);
+    if (input.tiles->changed.empty()) {
+        const auto size = static_cast<std::uint32_t>(input.surface->size);
+        const auto make = [&](gpu::Image& image, const char* name) {
+            image = gpu::Image(
+                device, {.name = name, .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
+            // What lies beyond the needed tiles is read with weight 0.
+            commands.clear(image);
+        };
+        make(light.irradiance, "irradiance");
+        make(light.incident, "incident");
+    }
     if (input.lights) recordLights(device, commands, input, light);
 
     std::string shader = "irradiance.comp";
@@ -86,7 +95,7 @@ void recordIrradiance(gpu::Device& device, gpu::Commands& commands, const Irradi
         shader += "+TRANSLUCENCY";
         bindings.push_back({"entry", entry});
     }
-    dispatchTiles(commands, device.program(shader), bindings, IrradiancePush{}, *input.tiles,
+    dispatchTiles(commands, device.program(shader), bindings, IrradiancePush{{}, input.lights && !input.lights->runs.empty() ? 1u : 0u}, *input.tiles,
                   input.tiles->lit());
 }
 

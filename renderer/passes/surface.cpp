@@ -52,19 +52,21 @@ void recordOwners(gpu::Device& device, gpu::Commands& commands, const SceneBuffe
 
 }  // namespace
 
-SurfaceImages recordSurface(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
-                            std::span<const ChartRange> charts, int size,
-                            const std::vector<std::uint32_t>& levelShifts, AtlasTiles& tiles) {
-    SurfaceImages images;
-    images.size = size;
-    images.triangles = atlasImage(device, "surface triangles", VK_FORMAT_R32_UINT, size);
-    images.position = atlasImage(device, "surface position", VK_FORMAT_R32G32B32A32_SFLOAT, size);
-    images.normal = atlasImage(device, "surface normal", VK_FORMAT_R16G16B16A16_SFLOAT, size);
-    images.albedo = atlasImage(device, "surface albedo", VK_FORMAT_R16G16B16A16_SFLOAT, size);
-    images.stretch = atlasImage(device, "surface stretch", VK_FORMAT_R32G32B32A32_SFLOAT, size);
-    recordOwners(device, commands, scene, images);
-    tiles = recordCoveredTiles(device, commands, images.triangles, charts, levelShifts, scene.seams);
-    commands.clear(images.position);
+void recordSurface(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
+                   std::span<const ChartRange> charts, int size, const std::vector<std::uint32_t>& levelShifts,
+                   AtlasTiles& tiles, SurfaceImages& images) {
+    if (tiles.changed.empty()) {
+        images = {};
+        images.size = size;
+        images.triangles = atlasImage(device, "surface triangles", VK_FORMAT_R32_UINT, size);
+        images.position = atlasImage(device, "surface position", VK_FORMAT_R32G32B32A32_SFLOAT, size);
+        images.normal = atlasImage(device, "surface normal", VK_FORMAT_R16G16B16A16_SFLOAT, size);
+        images.albedo = atlasImage(device, "surface albedo", VK_FORMAT_R16G16B16A16_SFLOAT, size);
+        images.stretch = atlasImage(device, "surface stretch", VK_FORMAT_R32G32B32A32_SFLOAT, size);
+        recordOwners(device, commands, scene, images);
+        tiles = recordCoveredTiles(device, commands, images.triangles, charts, levelShifts, scene.seams);
+        commands.clear(images.position);
+    }
 
     gpu::Bindings bindings{{"triangles", images.triangles},
                            {"IndexBuffer", scene.indices},
@@ -86,7 +88,6 @@ SurfaceImages recordSurface(gpu::Device& device, gpu::Commands& commands, const 
     dispatchTiles(commands, program, bindings, SurfacePush{}, tiles, tiles.seen());
     recordGutterStretch(device, commands, scene.seams, tiles, images);
     recordCoarseStretch(device, commands, tiles, images);
-    return images;
 }
 
 }  // namespace cutis

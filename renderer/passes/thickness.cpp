@@ -10,7 +10,7 @@ namespace {
 
 struct ThicknessPush {
     shared::TilePush tiles;
-    std::uint32_t entryStep, firstSample, firstView, groupCount, last;
+    std::uint32_t entryStep, firstSample, firstView, groupCount, first, last;
 };
 
 }  // namespace
@@ -18,12 +18,14 @@ struct ThicknessPush {
 void recordThickness(gpu::Device& device, gpu::Commands& commands, const SceneBuffers& scene,
                      const SurfaceImages& surface, const LightMaps& lights, const AtlasTiles& tiles,
                      SkinLight& light) {
-    const auto size = static_cast<std::uint32_t>(surface.size);
-    light.entry = gpu::Image(
-        device,
-        {.name = "entry points", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
-    // Texels that are not seen are read as far as a lookup between texels goes.
-    commands.clear(light.entry, gpu::ClearValue(-1, -1, kNoThickness, 0));
+    if (tiles.changed.empty()) {
+        const auto size = static_cast<std::uint32_t>(surface.size);
+        light.entry = gpu::Image(
+            device,
+            {.name = "entry points", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = size, .height = size});
+        // Texels that are not seen are read as far as a lookup between texels goes.
+        commands.clear(light.entry, gpu::ClearValue(-1, -1, kNoThickness, 0));
+    }
     const gpu::Bindings bindings{{"position", surface.position},      {"normal", surface.normal},
                                  {"DrawBuffer", scene.draws},         {"MaterialBuffer", scene.materials},
                                  {"GaussianBuffer", scene.gaussians}, {"LightBuffer", lights.samples},
@@ -39,6 +41,7 @@ void recordThickness(gpu::Device& device, gpu::Commands& commands, const SceneBu
                                  runs[i].firstSample,
                                  runs[i].firstView,
                                  lights.groupCount,
+                                 i == 0 ? 1u : 0u,
                                  i + 1 == runs.size() ? 1u : 0u};
         dispatchTiles(commands, device.program("thickness.comp", {{0, runs[i].sampleCount}}), bindings, push,
                       tiles, tiles.seen());

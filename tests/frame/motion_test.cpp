@@ -89,6 +89,38 @@ TEST_F(MovingScene, OnlyMapsThatShowWhatMovedAreDrawn) {
     EXPECT_EQ(renderAt(0.3).stats.atlasTexelsCovered, moved.atlasTexelsCovered);
 }
 
+// Where every view counts, what stands still and in nobody's light or sky is not lit again, and looks as if it were.
+TEST_F(MovingScene, OnlyWhatMovedAndWhatItShadesIsLitAgain) {
+    for (const bool everything : {false, true}) {
+        SCOPED_TRACE(everything ? "all lights and a sky" : "light from above");
+        if (everything) small_.input.environment = &small_.sky;
+        const Rig rig = small_.input.rig;
+        if (!everything) small_.input.rig.lights = {directionalLight("down", {0, -1, 0}, 2)};
+        Renderer renderer(device(), Renderer::Views::any);
+        const auto pose = [&](double seconds) {
+            poseScene(small_.scene, 0, seconds);
+            ++small_.input.poseRevision;
+            return renderer.render(small_.input, small_.settings);
+        };
+        pose(0);
+        pose(0.2);
+        const RenderResult kept = pose(0.7);
+        int rows = 0;
+        for (const PassStats& pass : kept.stats.passes) {
+            const std::size_t at = pass.reason.find("of 4 groups, ");
+            if (at == std::string::npos) continue;
+            ++rows;
+            const int changed = std::stoi(pass.reason.substr(at + 13));
+            EXPECT_GE(changed, 1) << pass.name;
+            EXPECT_LE(changed, everything ? 4 : 2) << pass.name;
+        }
+        EXPECT_GE(rows, everything ? 6 : 5) << "of surface, thickness, sky, irradiance, diffusion, exitance";
+        Renderer fresh(device(), Renderer::Views::any);
+        EXPECT_LE(worstDifference(kept.picture, fresh.render(small_.input, small_.settings).picture), 2e-6);
+        small_.input.rig = rig;
+    }
+}
+
 // As fine as the nearest of the pictures to come asks, from the first on.
 TEST_F(MovingScene, AnticipatedPicturesShareOneAtlas) {
     small_.settings.irradianceSize = 0;

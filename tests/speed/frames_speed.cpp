@@ -8,6 +8,7 @@
 #include "renderer/scene/camera.h"
 #include "renderer/scene/environment.h"
 #include "renderer/scene/gltf.h"
+#include "renderer/scene/pose.h"
 #include "renderer/scene/rig.h"
 #include "tests/speed/speed.h"
 
@@ -107,6 +108,24 @@ void printFrames(gpu::Device& device, const std::filesystem::path& sceneFile, in
           [&](int i) { stage.input.rig.lights[1].intensity *= i % 2 ? 1.1 : 1 / 1.1; });
     print("the environment's rotation", [&](int) { stage.input.rig.environment.rotation += 5; });
     print("the camera", [&](int i) { turnCamera(stage.input.camera, i % 2 ? 1 : -1); });
+    {
+        // One character goes up and down by a millimetre.
+        Stage moving = stage;
+        moving.input.scene = &moving.scene;
+        moving.input.environment = &moving.environment;
+        const int root = moving.scene.characters.at(0).root;
+        moving.scene.nodes[root].rest = toTransform(moving.scene.nodes[root].local);
+        const glm::vec3 at = moving.scene.nodes[root].rest->translation;
+        moving.scene.animations.push_back({"up",
+                                           {{Interpolation::linear, 3, {0, 1}, {at.x, at.y, at.z, at.x, at.y + 0.001f, at.z}}},
+                                           {{0, root, AnimatedProperty::translation}},
+                                           1});
+        Renderer movingRenderer(device);
+        printRow("a character's pose", timeFrames(movingRenderer, moving, repeats, [&](int i) {
+                     poseScene(moving.scene, 0, i % 2 ? 0.75 : 0.25);
+                     ++moving.input.poseRevision;
+                 }));
+    }
     const FrameTimes skin =
         timeFrames(renderer, stage, repeats, [&](int i) { turnCamera(stage.input.camera, i % 2 ? 1 : -1); });
     Stage bare = stage;
