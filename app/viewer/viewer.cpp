@@ -240,7 +240,7 @@ class Viewer {
         if (opens_) session_.pictureAspect = loaded.geometry->cameras.empty() ? 0 : 16.0 / 9;
         if (opens_ && loaded.name != "default") rememberFile(session_, loaded.name);
         if (opens_ && session_.document().scene.empty()) {
-            session_.edits.reset(loaded.document);
+            openFirst(loaded.document);
         } else if (opens_) {
             session_.edits.endGesture();
             session_.edits.apply("Open " + loaded.name,
@@ -249,6 +249,18 @@ class Viewer {
             session_.edits.markSaved();
         }
         window_.setTitle(titleOf(loaded.name));
+    }
+
+    // A rig that was opened while the first scene was loading stays.
+    void openFirst(const Document& opened) {
+        const Document before = session_.document();
+        const bool changed = session_.edits.canUndo(), unsaved = session_.edits.unsaved();
+        session_.edits.reset(opened);
+        if (!changed) return;
+        session_.edits.apply("Open rig",
+                             [&](Document& document) { replaceRig(document, before.rig, before.rigFile); });
+        session_.edits.endGesture();
+        if (!unsaved) session_.edits.markSaved();
     }
 
     void takeInput() {
