@@ -255,7 +255,7 @@ std::vector<Option> makeOptions() {
 
         {"--sweep", "SWEEP", kMeasure, "Accuracy",
          "The settings to try: quality, lights (1 to 64), characters (1 to 16), size (of the atlas, 256 to "
-         "8192), or a "
+         "8192), stability (stiff and extreme cases: is each finite, does it keep its energy, how far is it off), or a "
          "JSON file of settings (default: quality)",
          false, [](Request& r, const std::string& text) { r.sweep = parseText(text); }},
         {"--repeats", "N", kMeasure, "Accuracy",

@@ -43,6 +43,9 @@ layout(push_constant, scalar) uniform Push {
 
 const float kNoThickness = 60000.0;  // mm
 
+// Of a distance in a light map, relative: two roundings of a depth, and one of a position.
+const float kDepthRounding = 1e-5;
+
 struct EntryPoint {
     float thickness;  // mm
     vec2 texel;
@@ -82,7 +85,8 @@ EntryPoint findEntry(LightView view, vec3 p, vec3 n, vec3 l, float rayScale, uin
         vec2 texelPlace = unpackUnorm2x16(packed) * atlasSize;
         float texelDepth = lightMapDistance(view, texelFetch(lightDepth, texel, 0).x);
         // Just beyond a silhouette the map may miss it and show what lies behind the point: no way in for its light.
-        if (texelDepth > here || w == 0.0) continue;
+        // Where the body has no thickness the way in lies at the point itself, to a rounding.
+        if (texelDepth > here * (1.0 + kDepthRounding) || w == 0.0) continue;
         if (w > nearest) nearest = w, nearestPlace = texelPlace, nearestDepth = texelDepth, blocked = false;
         if (reference.x < 0.0) reference = texelPlace;
         if (distance(reference, texelPlace) > 16.0) together = false;

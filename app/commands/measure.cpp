@@ -14,6 +14,7 @@
 #include "renderer/measure/maps.h"
 #include "renderer/measure/measurement.h"
 #include "renderer/measure/report.h"
+#include "renderer/measure/stability.h"
 #include "renderer/reference/reference.h"
 
 namespace cutis::app {
@@ -22,6 +23,9 @@ namespace {
 
 // White in error maps: this share of the mean diffuse light.
 constexpr double kWholeError = 0.2;
+
+// Not settings of one picture, but other scenes and lights: measureStability.
+constexpr const char* kStability = "stability";
 
 std::vector<Setting> chooseSweep(const std::string& name) {
     for (const std::string& known : sweepNames())
@@ -35,15 +39,14 @@ struct Interrupted {};
 
 // The exact picture. It keeps its own state in the cache, by the content of all that it shows, so that asking
 // again for the same costs nothing.
-SubjectReference makeReference(const Inputs& inputs, const Scene& scene, const Rig& rig,
-                               const Request& request, int width, int height, Progress& progress) {
-    const reference::Input input{.scene = &scene,
-                                 .rig = rig,
-                                 .environment = inputs.environment ? &*inputs.environment : nullptr,
-                                 .camera = inputs.camera};
+SubjectReference makeReference(const MeasuredSubject& subject, const Request& request, Progress& progress) {
+    const reference::Input input{.scene = &subject.scene,
+                                 .rig = subject.rig,
+                                 .environment = subject.environment ? &*subject.environment : nullptr,
+                                 .camera = subject.camera};
     const reference::Settings settings{
-        .width = width,
-        .height = height,
+        .width = subject.quality.width,
+        .height = subject.quality.height,
         .seed = request.settings.seed,
         .error = request.error.value_or(request.budget > 0 ? 0 : reference::Settings{}.error),
         .budget = request.budget,
@@ -70,9 +73,13 @@ SubjectReference makeReference(const Inputs& inputs, const Scene& scene, const R
     return made;
 }
 
-std::string percent(double share) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2f %%", 100 * share);
+// A row of a sweep of settings as it is printed.
+std::string settingLine(const Measurement& row) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%-28s ", row.setting.name.c_str());
+    if (!row.failure.empty()) return text + ("failed: " + row.failure);
+    std::snprintf(text, sizeof text, "%-28s %.2f %% in %f ms", row.setting.name.c_str(),
+                  100 * row.diffuse.relativeL2, row.gpu.median);
     return text;
 }
 
@@ -80,7 +87,9 @@ std::string percent(double share) {
 
 int runMeasure(const Request& request) {
     const fs::path folder = request.outputs.front();
-    const std::vector<Setting> settings = chooseSweep(request.sweep);
+    const bool stability = request.sweep == kStability;
+    const std::vector<Setting> settings = stability ? std::vector<Setting>{} : chooseSweep(request.sweep);
+    const std::vector<StabilityCase> cases = stability ? stabilityCases() : std::vector<StabilityCase>{};
     prepareOutputFolder(folder, "measure.json");
     Progress progress;
     progress.setStage("loading");
@@ -97,7 +106,9 @@ int runMeasure(const Request& request) {
                              .exposure = inputs.rig.exposure + request.exposure,
                              .repeats = request.repeats};
     const ReportInfo info{
-        .title = "Error against run time: " + request.operands.front() + ", " + request.sweep,
+        .kind = stability ? ReportKind::stability : ReportKind::sweep,
+        .title = (stability ? "Stiff and extreme cases: " + request.operands.front()
+                            : "Error against run time: " + request.operands.front() + ", " + request.sweep),
         .device = device.info().name,
         .command = commandLine(),
         .width = input.width,
@@ -109,36 +120,34 @@ int runMeasure(const Request& request) {
     for (const char* name : {"pictures", "errors"}) fs::create_directories(folder / name);
     std::vector<Measurement> rows;
     MeasureHooks hooks;
-    hooks.reference = [&](const Scene& scene, const Rig& rig) {
-        return makeReference(inputs, scene, rig, request, input.width, input.height, progress);
+    hooks.reference = [&](const MeasuredSubject& subject) {
+        return makeReference(subject, request, progress);
     };
     hooks.row = [&](const Measurement& row, const Picture& picture, const Picture& diffuse,
                     const SubjectReference& reference) {
         const std::size_t index = rows.size();
         rows.push_back(row);
         progress.setStage("measured " + std::to_string(rows.size()) + " of " +
-                          std::to_string(settings.size()));
+                          std::to_string(settings.size() + cases.size()));
         if (row.failure.empty()) {
             writePng(folder / pictureFile(index, row), picture, input.exposure);
             const std::vector<bool> covered = coveredPixels(reference.picture);
             writeMap(folder / errorFile(index, row), relativeErrorMap(diffuse, reference.diffuse, covered),
                      kWholeError);
         }
-        std::printf(
-            "%-28s %s\n", row.setting.name.c_str(),
-            row.failure.empty()
-                ? (percent(row.diffuse.relativeL2) + " in " + std::to_string(row.gpu.median) + " ms").c_str()
-                : ("failed: " + row.failure).c_str());
+        std::printf("%s\n", (stability ? stabilityLine(row) : settingLine(row)).c_str());
         std::fflush(stdout);
     };
     try {
-        rows = measureSettings(device, input, settings, hooks);
+        if (stability) std::printf("%s\n", stabilityHeading().c_str());
+        rows = stability ? measureStability(device, input, cases, hooks)
+                         : measureSettings(device, input, settings, hooks);
     } catch (const Interrupted&) {
         warn("interrupted; the same command goes on with the reference from there");
         return endingStatus();
     }
     progress.setStage("writing");
-    recordMeasurement(inputs, device.info(), reportJson(rows, info));
+    if (!stability) recordMeasurement(inputs, device.info(), reportJson(rows, info));
     writeReport(folder, rows, info);
     for (const std::string& paragraph : reportText(rows, info)) std::printf("%s\n", paragraph.c_str());
     checkValidation(device);

@@ -11,6 +11,7 @@
 #include "app/tolerance.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
+#include "renderer/frame/fitting.h"
 
 namespace cutis::app {
 namespace fs = std::filesystem;
@@ -89,7 +90,14 @@ int runRender(const Request& request) {
     RenderSettings settings = request.settings;
     if (request.tolerance) applyTolerance(*request.tolerance, prepared.inputs, prepared.device.info(), settings);
     const auto draw = request.frames ? renderFrames : renderOne;
-    draw(request, settings, prepared, loadMs, progress);
+    for (bool drawn = false; !drawn;) {
+        try {
+            draw(request, settings, prepared, loadMs, progress);
+            drawn = true;
+        } catch (const gpu::OutOfMemory& problem) {
+            settings = settingsThatFit(prepared.device, renderInput(prepared.inputs), settings, problem);
+        }
+    }
     checkValidation(prepared.device);
     return 0;
 }

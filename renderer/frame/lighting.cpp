@@ -12,6 +12,14 @@
 namespace cutis {
 namespace {
 
+// The middle of the characters, or of a scene without any.
+std::optional<glm::dvec3> subjectOf(const Scene& scene) {
+    Bounds bounds;
+    for (const Character& character : scene.characters) bounds.extend(character.bounds);
+    if (bounds.empty()) bounds = scene.bounds;
+    return bounds.empty() ? std::nullopt : std::optional(bounds.centre());
+}
+
 void splitOnce(Lighting& lighting, const RenderInput& input, int samples) {
     const bool known = lighting.splitOf == input.environment && lighting.splitSamples == samples &&
                        lighting.splitRevision == input.environmentRevision;
@@ -79,7 +87,10 @@ void readLighting(FrameContext& frame) {
     const RenderInput& input = *frame.input;
     const EnvironmentSettings& settings = input.rig.environment;
     Lighting& lighting = frame.lighting;
-    lighting.samples = sampleLights(input.rig, {.seed = frame.settings->seed});
+    SamplingOptions sampling;
+    sampling.seed = frame.settings->seed;
+    sampling.subject = subjectOf(*input.scene);
+    lighting.samples = sampleLights(input.rig, sampling);
     lighting.leftOut.clear();
     if (frame.settings->prune) leaveOutDarkSamples(frame);
     lighting.environment = nullptr;

@@ -88,7 +88,8 @@ glm::dvec3 normalOf(const Geometry& geometry, std::uint32_t triangle) {
     return length > 0 ? n / length : glm::dvec3(0);
 }
 
-// Of several triangles at one edge each goes on into the one that bends least away from it.
+// Of several triangles at one edge each goes on into the one that bends least away from it; of those that bend alike, as where
+// a body has no thickness, into the one that turns the same side outwards.
 void joinEdges(const Geometry& geometry, const std::vector<std::uint32_t>& places, SkinMesh& mesh) {
     mesh.across.assign(std::size_t(geometry.skinTriangleCount) * 3, kNoHalfEdge);
     forEachEdge(geometry, places, [&](const std::vector<HalfEdge>& edges) {
@@ -99,11 +100,24 @@ void joinEdges(const Geometry& geometry, const std::vector<std::uint32_t>& place
             for (const HalfEdge other : edges) {
                 if (other / 3 == h / 3) continue;
                 const bool opposed = places[startOf(geometry, other)] != places[startOf(geometry, h)];
-                const double flat = glm::dot(n, normalOf(geometry, other / 3)) * (opposed ? 1 : -1);
+                const double sameSide = opposed ? 1e-9 : 0;
+                const double flat = glm::dot(n, normalOf(geometry, other / 3)) * (opposed ? 1 : -1) + sameSide;
                 if (flat > best) best = flat, mesh.across[h] = other;
             }
         }
     });
+}
+
+// Needs `across`.
+void findSealed(const Geometry& geometry, const std::vector<std::uint32_t>& places, SkinMesh& mesh) {
+    mesh.sealed.assign(geometry.receiverGroups.size(), true);
+    for (HalfEdge h = 0; h < geometry.skinTriangleCount * 3; ++h) {
+        const std::uint32_t a = places[startOf(geometry, h)], b = places[endOf(geometry, h)];
+        if (a == b) continue;
+        const HalfEdge other = mesh.across[h];
+        if (other == kNoHalfEdge || places[startOf(geometry, other)] != b)
+            mesh.sealed[geometry.draws[geometry.triangleDraws[h / 3]].character] = false;
+    }
 }
 
 std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t v) {
@@ -276,7 +290,9 @@ SkinMesh makeSkinMesh(const Geometry& geometry) {
     SkinMesh mesh;
     if (geometry.skinTriangleCount == 0) return mesh;
     mesh.weld = weldVertices(geometry, true);
-    joinEdges(geometry, weldVertices(geometry, false), mesh);
+    const std::vector<std::uint32_t> places = weldVertices(geometry, false);
+    joinEdges(geometry, places, mesh);
+    findSealed(geometry, places, mesh);
     findIslands(geometry, mesh);
     findOverlaps(geometry, mesh);
     forEachEdge(geometry, mesh.weld, [&](const std::vector<HalfEdge>& edges) {

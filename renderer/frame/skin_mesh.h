@@ -35,6 +35,8 @@ struct SkinMesh {
     std::vector<UvIsland> islands;
     std::vector<HalfEdge> borders;  // at which islands end
     std::size_t seams = 0;          // of them, those beyond which the surface goes on
+    // A character: its skin has no edge at which it ends, and turns one side outwards all over.
+    std::vector<bool> sealed;
 
     // What lies beyond an edge at that share of its length.
     HalfEdge beyond(HalfEdge edge, double share) const;

@@ -96,7 +96,7 @@ shared::Material toShared(const Material& from, const std::vector<TextureArrays:
     return to;
 }
 
-std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry,
+std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry, const SkinMesh& mesh,
                                   const std::vector<TextureArrays::Place>& places) {
     std::vector<DrawRange> ranges;
     for (const GeometryDraw& draw : geometry.draws) {
@@ -112,7 +112,7 @@ std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry,
         range.doubleSided = material.doubleSided;
         range.masked = material.alphaMode != AlphaMode::opaque;
         range.closed = range.skin && !range.doubleSided && !range.masked;
-        range.closed = range.skin && !range.doubleSided && !range.masked;
+        range.sealed = range.closed && mesh.sealed[draw.character];
         if (material.baseColorTexture) {
             range.alphaGroup = static_cast<std::uint32_t>(places[material.baseColorTexture.texture].group);
         }
@@ -343,7 +343,7 @@ void uploadDraws(FrameContext& frame) {
 }
 
 void findDrawRanges(FrameContext& frame) {
-    frame.scene.buffers.ranges = makeRanges(*frame.input->scene, frame.geometry, frame.scene.texturePlaces);
+    frame.scene.buffers.ranges = makeRanges(*frame.input->scene, frame.geometry, frame.skinMesh, frame.scene.texturePlaces);
 }
 
 void uploadProfiles(FrameContext& frame) {

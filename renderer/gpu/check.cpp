@@ -1,6 +1,6 @@
 #include "renderer/gpu/check.h"
 
-#include "renderer/core/error.h"
+#include "renderer/gpu/out_of_memory.h"
 
 namespace cutis::gpu {
 
@@ -38,6 +38,7 @@ std::string resultText(VkResult result) {
 }
 
 void check(VkResult result, const char* action) {
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) throw OutOfMemory("device", resultText(result), action);
     if (result < 0) throw Error("device", resultText(result), action);
 }
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
-#include "renderer/core/error.h"
 #include "renderer/gpu/check.h"
+#include "renderer/gpu/out_of_memory.h"
 
 namespace cutis::gpu {
 
@@ -107,13 +107,13 @@ std::uint32_t MemoryAllocator::chooseType(std::uint32_t allowedTypes, MemoryUse 
 MemoryBlock& MemoryAllocator::addBlock(std::uint32_t type, bool linear, VkDeviceSize needed,
                                        const std::string& name) {
     const VkDeviceSize heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
-    const auto fail = [&](const std::string& why) {
-        throw Error("device",
-                    why + ": " + megabytes(needed) + " asked for, " + megabytes(bytes_) +
-                        " in use, the device has " + megabytes(heap),
-                    name);
+    const auto fail = [&](VkResult result) {
+        const std::string why = resultText(result) + ": " + megabytes(needed) + " asked for, " +
+                                megabytes(bytes_) + " in use, the device has " + megabytes(heap);
+        if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) throw OutOfMemory("device", why, name);
+        throw Error("device", why, name);
     };
-    if (needed > std::min(heap, maxAllocation_)) fail("out of device memory");
+    if (needed > std::min(heap, maxAllocation_)) fail(VK_ERROR_OUT_OF_DEVICE_MEMORY);
     auto block = std::make_unique<MemoryBlock>();
     const VkDeviceSize shared = std::min(kBlockBytes, heap / 16);
     block->own = takesOwnBlock(type, needed);
@@ -130,13 +130,13 @@ MemoryBlock& MemoryAllocator::addBlock(std::uint32_t type, bool linear, VkDevice
         info.allocationSize = block->bytes = needed;
         result = vkAllocateMemory(device_, &info, nullptr, &block->memory);
     }
-    if (result != VK_SUCCESS) fail(resultText(result));
+    if (result != VK_SUCCESS) fail(result);
     if (properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) {
         void* mapped = nullptr;
         result = vkMapMemory(device_, block->memory, 0, VK_WHOLE_SIZE, 0, &mapped);
         if (result != VK_SUCCESS) {
             vkFreeMemory(device_, block->memory, nullptr);
-            fail(resultText(result));
+            fail(result);
         }
         block->mapped = static_cast<std::byte*>(mapped);
     }

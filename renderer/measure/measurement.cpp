@@ -51,38 +51,56 @@ Timing timingOf(std::vector<double> milliseconds) {
     return {(milliseconds[(n - 1) / 2] + milliseconds[n / 2]) / 2, milliseconds.front(), milliseconds.back()};
 }
 
+MeasuredSubject subjectOf(const MeasureInput& input) {
+    MeasuredSubject subject{.scene = *input.scene,
+                            .rig = input.rig,
+                            .environment = {},
+                            .camera = input.camera,
+                            .quality = {.width = input.width, .height = input.height, .aovs = {"diffuse"}}};
+    if (input.environment) subject.environment = *input.environment;
+    return subject;
+}
+
+RenderResult measureRow(gpu::Device& device, const MeasureInput& input, const MeasuredSubject& subject,
+                        const SubjectReference& reference, Measurement& row) {
+    const RenderInput render{.scene = &subject.scene,
+                             .rig = subject.rig,
+                             .environment = subject.environment ? &*subject.environment : nullptr,
+                             .camera = subject.camera};
+    RenderSettings quality = subject.quality;
+    quality.repeats = input.repeats + 1;
+    RenderResult result = renderPicture(device, render, quality);
+    const TimedRuns runs(result.stats);
+    row.gpu = timingOf(runs.total);
+    for (const auto& [name, values] : runs.passes) row.passes[name] = timingOf(values);
+    row.bytesGpu = result.stats.bytesGpu;
+    row.nonfinite = result.stats.nonfinite;
+    row.atlasSize = result.stats.atlasWidth;
+    row.lightSamples = result.stats.lightSamples;
+    row.gaussians = result.stats.gaussians;
+    compare(result, reference, input.exposure, row);
+    return result;
+}
+
 std::vector<Measurement> measureSettings(gpu::Device& device, const MeasureInput& input,
                                          const std::vector<Setting>& settings, const MeasureHooks& hooks) {
     std::vector<Measurement> rows;
-    Setting subject;
+    Setting subjectSetting;
     SubjectReference reference;
     bool known = false;
     for (const Setting& setting : settings) {
         Measurement row{.setting = setting};
         RenderResult result;
         try {
-            Scene scene = *input.scene;
-            RenderInput render{
-                .scene = &scene, .rig = input.rig, .environment = input.environment, .camera = input.camera};
-            RenderSettings quality{.width = input.width, .height = input.height, .aovs = {"diffuse"}};
-            applySetting(setting, scene, render.rig, quality);
-            if (!known || !setting.sameSubject(subject)) {
+            MeasuredSubject subject = subjectOf(input);
+            applySetting(setting, subject.scene, subject.rig, subject.quality);
+            if (!known || !setting.sameSubject(subjectSetting)) {
                 known = false;
-                reference = hooks.reference(scene, render.rig);
-                subject = setting;
+                reference = hooks.reference(subject);
+                subjectSetting = setting;
                 known = true;
             }
-            quality.repeats = input.repeats + 1;
-            result = renderPicture(device, render, quality);
-            const TimedRuns runs(result.stats);
-            row.gpu = timingOf(runs.total);
-            for (const auto& [name, values] : runs.passes) row.passes[name] = timingOf(values);
-            row.bytesGpu = result.stats.bytesGpu;
-            row.nonfinite = result.stats.nonfinite;
-            row.atlasSize = result.stats.atlasWidth;
-            row.lightSamples = result.stats.lightSamples;
-            row.gaussians = result.stats.gaussians;
-            compare(result, reference, input.exposure, row);
+            result = measureRow(device, input, subject, reference, row);
         } catch (const std::exception& error) {
             row = {.setting = setting, .failure = error.what()};
             result = {};

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,9 +51,19 @@ struct MeasureInput {
     int repeats = 3;      // timed runs of each setting, after one that warms up
 };
 
+// What one row shows, for the row to change.
+struct MeasuredSubject {
+    Scene scene;
+    Rig rig;
+    std::optional<Environment> environment;
+    Camera camera;
+    RenderSettings quality;
+};
+MeasuredSubject subjectOf(const MeasureInput& input);
+
 struct MeasureHooks {
     // The reference of a subject: called once for all settings that show the same.
-    std::function<SubjectReference(const Scene&, const Rig&)> reference;
+    std::function<SubjectReference(const MeasuredSubject&)> reference;
     // Called with each finished row, its picture and its diffuse light (both empty when it failed).
     std::function<void(const Measurement&, const Picture& picture, const Picture& diffuse, const SubjectReference&)> row;
 };
@@ -60,6 +71,10 @@ struct MeasureHooks {
 // A setting that fails becomes a row that says so. Rows come in the order of `settings`.
 std::vector<Measurement> measureSettings(gpu::Device& device, const MeasureInput& input,
                                          const std::vector<Setting>& settings, const MeasureHooks& hooks);
+
+// Draws one subject and fills in the figures of its row. Throws Error.
+RenderResult measureRow(gpu::Device& device, const MeasureInput& input, const MeasuredSubject& subject,
+                        const SubjectReference& reference, Measurement& row);
 
 // Marks the rows of the Pareto front of gpu.median against diffuse.relativeL2, within each subject.
 void markParetoFront(std::vector<Measurement>& rows);

@@ -134,8 +134,9 @@ std::string reportHtml(const std::vector<Measurement>& rows, const ReportInfo& i
         htmlHead(info.title) + "<p>" + std::to_string(info.width) + "×" + std::to_string(info.height) +
         " pixels. Made by <code>" + escapeHtml(info.command) +
         "</code>; the figures are in <a href=\"measure.csv\">measure.csv</a> and "
-        "<a href=\"measure.json\">measure.json</a>.</p>\n<img class=plot src=\"measure.svg\" alt=\"error "
-        "against run time\">\n";
+        "<a href=\"measure.json\">measure.json</a>.</p>\n";
+    if (info.kind == ReportKind::sweep)
+        page += "<img class=plot src=\"measure.svg\" alt=\"error against run time\">\n";
     for (const std::string& paragraph : reportText(rows, info))
         page += "<p>" + escapeHtml(paragraph) + "</p>\n";
     page +=
@@ -144,7 +145,9 @@ std::string reportHtml(const std::vector<Measurement>& rows, const ReportInfo& i
         "<th>bias %</th><th>picture L2 %</th><th>FLIP</th><th>picture, and error of diffuse light (white: 20 "
         "% of the mean)</th></tr>\n";
     for (std::size_t i = 0; i < rows.size(); ++i) page += htmlRow(i, rows[i]);
-    return page + "</table>\n<p>Red names: the Pareto front.</p>\n</html>\n";
+    page += "</table>\n";
+    if (info.kind == ReportKind::sweep) page += "<p>Red names: the Pareto front.</p>\n";
+    return page + "</html>\n";
 }
 
 }  // namespace cutis

@@ -99,7 +99,48 @@ const Measurement* leastRow(const std::vector<Measurement>& rows,
     return found;
 }
 
+// What the rows of extreme cases say together.
+std::vector<std::string> stabilityText(const std::vector<Measurement>& rows, const ReportInfo& info) {
+    std::string failed;
+    for (const Measurement& row : rows)
+        if (!row.failure.empty()) failed += (failed.empty() ? "" : ", ") + ("'" + row.setting.name + "'");
+    std::vector<std::string> text{std::to_string(rows.size()) + " cases, " +
+                                  (failed.empty() ? "none failed." : "failed: " + failed + ".")};
+    const Measurement* drifted = leastRow(rows, [](const Measurement& a, const Measurement& b) {
+        return std::abs(a.picture.bias) > std::abs(b.picture.bias);
+    });
+    const Measurement* farthest = leastRow(rows, [](const Measurement& a, const Measurement& b) {
+        return a.picture.relativeL2 > b.picture.relativeL2;
+    });
+    if (!drifted) return text;
+    text.push_back("Energy drift is the picture's light over that of its reference, less one; error is relative L2 of the "
+                   "picture. Times are on " + info.device + ".");
+    text.push_back("The largest drift is " + percent(drifted->picture.bias) + ", of '" + drifted->setting.name +
+                   "', the largest error " + percent(farthest->picture.relativeL2) + ", of '" +
+                   farthest->setting.name + "'.");
+    return text;
+}
+
 }  // namespace
+
+std::string stabilityHeading() {
+    char line[160];
+    std::snprintf(line, sizeof line, "%-30s %-6s %12s %22s %12s", "case", "finite", "energy drift", "error", "time");
+    return line;
+}
+
+std::string stabilityLine(const Measurement& row) {
+    char line[160];
+    if (!row.failure.empty()) {
+        std::snprintf(line, sizeof line, "%-30s %-6s", row.setting.name.c_str(), row.nonfinite > 0 ? "no" : "-");
+        return std::string(line) + " failed: " + row.failure;
+    }
+    std::snprintf(line, sizeof line, "%-30s %-6s %+10.2f %% %22s %12s", row.setting.name.c_str(), "yes",
+                  100 * row.picture.bias,
+                  (percent(row.picture.relativeL2) + " ± " + percent(row.picture.relativeL2Error)).c_str(),
+                  milliseconds(row.gpu.median).c_str());
+    return line;
+}
 
 fs::path pictureFile(std::size_t row, const Measurement& measurement) {
     return rowFile("pictures", row, measurement);
@@ -158,6 +199,7 @@ std::string reportJson(const std::vector<Measurement>& rows, const ReportInfo& i
 }
 
 std::vector<std::string> reportText(const std::vector<Measurement>& rows, const ReportInfo& info) {
+    if (info.kind == ReportKind::stability) return stabilityText(rows, info);
     std::vector<std::string> text;
     const Measurement* closest = leastRow(rows, [](const Measurement& a, const Measurement& b) {
         return a.diffuse.relativeL2 < b.diffuse.relativeL2;
@@ -208,7 +250,7 @@ void writeReport(const fs::path& folder, const std::vector<Measurement>& rows, c
     writeFileAtomically(folder / "measure.csv", reportCsv(rows));
     writeFileAtomically(folder / "measure.json", reportJson(rows, info));
     writeFileAtomically(folder / "index.html", reportHtml(rows, info));
-    writePlots(folder, rows, info);
+    if (info.kind == ReportKind::sweep) writePlots(folder, rows, info);
 }
 
 }  // namespace cutis

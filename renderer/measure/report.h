@@ -11,7 +11,12 @@
 
 namespace cutis {
 
+// sweep: settings of one quality or another, plotted as error against time. stability: stiff and extreme
+// cases, each against a reference of its own.
+enum class ReportKind { sweep, stability };
+
 struct ReportInfo {
+    ReportKind kind = ReportKind::sweep;
     std::string title{};    // of the scene and the sweep
     std::string device{};   // that drew the pictures
     std::string command{};  // that makes this report again
@@ -23,6 +28,12 @@ std::string reportCsv(const std::vector<Measurement>& rows);
 std::string reportJson(const std::vector<Measurement>& rows, const ReportInfo& info);
 // What the plot shows, in sentences: paragraphs of plain text.
 std::vector<std::string> reportText(const std::vector<Measurement>& rows, const ReportInfo& info);
+
+// A row of `cutis measure --sweep stability` as it is printed: case, finite, energy drift (the picture's
+// light over that of its reference, less one), error (relative L2 of the picture) and time, in columns; and
+// what stands above them.
+std::string stabilityLine(const Measurement& row);
+std::string stabilityHeading();
 
 // Names of a row's files below the folder: pictures/N-NAME.png and errors/N-NAME.png.
 std::filesystem::path pictureFile(std::size_t row, const Measurement& measurement);

@@ -27,7 +27,8 @@ struct DrawRange {
     bool masked = false;   // its material's alpha cuts it out or lets light through
     bool blended = false;  // seen through
     bool doubleSided = false;
-    bool closed = false;            // skin that bounds flesh: no light passes one side without meeting the other
+    bool closed = false;  // skin that bounds flesh: no light passes one side without meeting the other
+    bool sealed = false;  // and all round, without an open edge: light from outside meets a side that faces it first
     std::uint32_t alphaGroup = 0xffffffffu;  // of material textures, that holds its alpha; all bits set: none
     glm::vec3 boundsMin{0}, boundsMax{0};    // metres from the scene's origin
 };

@@ -12,6 +12,7 @@
 #include "renderer/scene/gltf_parts.h"
 #include "renderer/scene/pose.h"
 #include "renderer/scene/skin_file.h"
+#include "renderer/scene/skin_repair.h"
 
 namespace cutis {
 namespace {
@@ -124,6 +125,7 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
         if (!materials.skinMarked) guessSkin(scene);
         findCharacters(scene);
     }
+    turnSkinOutwards(scene);
     return scene;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "renderer/core/error.h"
+#include "renderer/scene/spherical_rectangle.h"
 
 namespace cutis {
 namespace {
@@ -153,6 +154,36 @@ std::vector<glm::dvec3> turnedBallPoints(int n, std::uint32_t seed) {
     return points;
 }
 
+// Steradians from which on a rect light is divided by solid angle: a square 2.4 times as wide as its
+// distance.
+constexpr double kLargeSolidAngle = 2;
+
+// True when the light is large as the subject sees it and these are its samples.
+bool appendBySolidAngle(const Light& light, const LightSample& whole, const SamplingOptions& options,
+                        std::vector<LightSample>& samples) {
+    if (!options.subject || !(glm::dot(*options.subject - light.position, light.direction) > 0)) return false;
+    const RectAxes axes = rectAxes(light.direction);
+    const SphericalRectangle seen(light.position, axes.x, axes.y, light.size, *options.subject);
+    if (!(seen.solidAngle() > kLargeSolidAngle)) return false;
+    const int n = sampleCount(light);
+    const double share = seen.solidAngle() / n;
+    for (const glm::dvec2& p : shiftedSquarePoints(n, 1, options.seed)) {
+        LightSample sample = whole;
+        const glm::dvec2 place = seen.placeOf(p + 0.5);
+        sample.position += axes.x * place.x + axes.y * place.y;
+        const glm::dvec3 away = *options.subject - sample.position;
+        const double squared = glm::dot(away, away);
+        const double cosine = glm::dot(away, light.direction) / std::sqrt(squared);
+        const double area = share * squared / cosine;
+        sample.radius = 0.5 * std::sqrt(area);
+        // So that irradianceFrom gives L · share where the subject stands.
+        const double wider = area / (kPi * squared) * std::max(3 * cosine * cosine - 2, 0.0);
+        sample.intensity = lightIntensity(light) * (area * (1 + wider));
+        samples.push_back(sample);
+    }
+    return true;
+}
+
 void appendArea(const Light& light, const LightSample& whole, std::uint32_t seed,
                 std::vector<LightSample>& samples) {
     const int n = sampleCount(light);
@@ -223,6 +254,7 @@ std::vector<LightSample> sampleLights(const Rig& rig, const SamplingOptions& opt
             whole.intensity *= light.size.x * light.size.y;
             whole.cosineEmission = true;
         }
+        if (light.type == LightType::rect && appendBySolidAngle(light, whole, options, samples)) continue;
         if (hasArea(light)) {
             appendArea(light, whole, options.seed, samples);
         } else {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "renderer/scene/light.h"
@@ -14,6 +15,8 @@ struct SamplingOptions {
     std::size_t limit = 65536;  // more samples than this over all lights are an Error
     // Other samples of lights with an area, as good as these: means over several seeds converge to the light.
     std::uint32_t seed = 0;
+    // What is lit stands about here: decides where the samples of rect lights lie that are large against their distance.
+    std::optional<glm::dvec3> subject = {};
 };
 
 // The samples of every enabled light, in the rig's order; their sum is the light. Placements must be
@@ -29,6 +32,9 @@ struct SamplingOptions {
 //  - rect: cell centres of a grid, or a point-symmetric lattice where no grid has nearly square cells. A
 //  sample of a
 //    light of radiance L, area A and n samples has L·A/n candela along its normal.
+//    One that fills more than 2 sr as the subject sees it is divided by solid angle instead (SphericalRectangle):
+//    cells of one size on a light much larger than its distance would all but miss what shines most. A sample that
+//    stands for Ω/n then gives a subject that faces it L·Ω/n.
 // A seed other than 0 shifts grids and lattices as on a torus, and turns balls. Deterministic. Throws Error
 // when there are more than options.limit.
 std::vector<LightSample> sampleLights(const Rig& rig, const SamplingOptions& options = {});

@@ -101,11 +101,13 @@ INSTANTIATE_TEST_SUITE_P(
                     RectCase{"light_from_above", {0.2, -1, 0.1}, {0.1, -0.8, 0}, {0, 1, 0.3}}),
     [](const testing::TestParamInfo<RectCase>& test) { return std::string(test.param.name); });
 
-// Few samples, as pictures use them: 2 m from a softbox, in front of it. As points they give 0.7 and 7 % too much.
+// Few samples, as pictures use them: 2 m from a softbox, in front of it. As points they give 0.7 and 7 % too
+// much.
 TEST(RectLight, FewSamplesGiveTheLightOfItsArea) {
     for (const auto& [samples, limit] : {std::pair{9, 0.003}, std::pair{1, 0.02}}) {
         const Light light = rectLight({0, 0, 0}, {0, 0, -1}, {0.9, 1.2}, samples);
-        for (const glm::dvec3& p : {glm::dvec3(0, 0, -2), glm::dvec3(0.3, 0.1, -2), glm::dvec3(-0.2, 0.4, -2.2)}) {
+        for (const glm::dvec3& p :
+             {glm::dvec3(0, 0, -2), glm::dvec3(0.3, 0.1, -2), glm::dvec3(-0.2, 0.4, -2.2)}) {
             const glm::dvec3 n = glm::normalize(glm::dvec3(0.3, -0.4, 1));
             EXPECT_NEAR(irradianceOf(light, p, n) / lambertRect(light, p, n), 1, limit) << samples;
         }
@@ -276,6 +278,36 @@ TEST(SampleLights, RefusesTooMany) {
 }
 
 // Chromaticities of black bodies: Wyszecki & Stiles, Color Science, 2nd ed., table 1(3.11).
+// Of a light whose distance is small against it, cells of one size would all but miss what shines most.
+TEST(RectSamples, LargeLightsAreDividedBySolidAngle) {
+    const glm::dvec3 subject(0.1, 0, -0.5);
+    const auto irradianceAt = [&](const Light& light, const glm::dvec3& towards) {
+        Rig rig;
+        rig.lights = {light};
+        SamplingOptions options;
+        options.subject = subject;
+        double sum = 0;
+        for (const LightSample& sample : sampleLights(rig, options))
+            sum += irradianceFrom(sample, subject, towards).x;
+        return sum;
+    };
+    const auto lightOfWidth = [](double width, int samples) {
+        return rectLight({0, 0, 0}, {0, 0, -1}, {width, 0.8 * width}, samples);
+    };
+    for (const auto& [samples, tolerance] : {std::pair(9, 0.12), {64, 0.02}}) {
+        for (const double width : {1.5, 5.0, 50.0, 1e4}) {
+            const Light light = lightOfWidth(width, samples);
+            EXPECT_NEAR(irradianceAt(light, {0, 0, 1}) / lambertRect(light, subject, {0, 0, 1}), 1, tolerance)
+                << width;
+        }
+        // A half space of light, seen at a slant: the view factor of a plane to a half space that it is
+        // tilted against.
+        for (const glm::dvec3& towards : {glm::dvec3(0.6, 0, 0.8), {0, -0.8, 0.6}, {0.96, 0, 0.28}})
+            EXPECT_NEAR(irradianceAt(lightOfWidth(1e4, samples), towards) / (kPi * (1 + towards.z) / 2), 1,
+                        tolerance);
+    }
+}
+
 TEST(ColorFromTemperature, LiesOnThePlanckianLocus) {
     const struct {
         double kelvin, x, y;

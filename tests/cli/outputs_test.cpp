@@ -1,0 +1,175 @@
+// Results survive what happens to a machine: a full disk, a read-only folder, a kill at any moment, an
+// interrupt, other processes at the same caches, damaged cache entries.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <future>
+#include <map>
+
+#include "renderer/scene/gltf_writer.h"
+#include "renderer/scene/picture.h"
+#include "tests/cli/program.h"
+#include "tests/support/pictures.h"
+
+namespace cutis::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Outputs : public testing::Test {
+  protected:
+    Outputs() {
+        writeGlb(twoHeads(), scene_);
+        writeExr(sky_, makeEnvironment(16, 8, [](const glm::dvec3& w) { return glm::dvec3(1 + w.y); }));
+    }
+
+    std::vector<std::string> renderTo(const std::string& out) const {
+        return {"render", scene_, "--size", "32x18", "--device", "cpu", "-o", out};
+    }
+    // Through a shell that first does `before` and then becomes the program.
+    static ProcessResult runAfter(const std::string& before, const std::vector<std::string>& arguments) {
+        std::vector<std::string> all = {"/bin/sh", "-c", before + "; exec \"$0\" \"$@\"", CUTIS_PROGRAM};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        return runProcess(all, {{"CUTIS_CACHE_DIR", CUTIS_TEST_CACHE_DIR}});
+    }
+
+    TemporaryFolder folder_;
+    std::string scene_ = folder_ / "heads.glb", sky_ = folder_ / "sky.exr";
+};
+
+// Writes that fail half-way. A limit on a file's size fails them as a full disk does (EFBIG, not ENOSPC), for
+// whoever runs the tests; the signal that comes with it is ignored.
+TEST_F(Outputs, AFullDiskLeavesTheOldFileWhole) {
+    const std::string picture = folder_ / "a.exr", stats = folder_ / "a.json", rig = folder_ / "a.rig.json";
+    for (const std::string& file : {picture, stats, rig}) writeText(file, "old");
+    const std::vector<std::string> before = filesIn(folder_.path());
+    const std::string full = "trap '' XFSZ; ulimit -f 1";
+    std::vector<std::string> arguments = renderTo(picture);
+    arguments.insert(arguments.end(), {"--size", "640x360", "--stats", stats});
+    expectFailure(runAfter(full, arguments), 1, {"cannot write", "a.exr"});
+    // Written by cutis itself, and larger than the limit of 512 or 1024 bytes.
+    expectFailure(runAfter("trap '' XFSZ; ulimit -f 0", {"rig", "export", "rembrandt", "-o", rig}), 1,
+                  {"cannot write file", "a.rig.json"});
+    for (const std::string& file : {picture, stats, rig}) EXPECT_EQ(readText(file), "old") << file;
+    EXPECT_EQ(filesIn(folder_.path()), before);
+}
+
+TEST_F(Outputs, AReadOnlyFolderIsRefusedBeforeTheWork) {
+    const fs::path locked = folder_ / "locked";
+    fs::create_directory(locked);
+    writeText(locked / "a.exr", "old");
+    // Nobody may write below /proc, root included.
+    expectFailure(runCutis(renderTo("/proc/a.exr")), 1, {"cannot write file", "/proc"});
+    fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec);
+    if (geteuid() != 0) {  // whom no permission stops
+        expectFailure(runCutis(renderTo(locked / "a.exr")), 1, {"the folder is not writable", "locked"});
+    }
+    EXPECT_EQ(readText(locked / "a.exr"), "old");
+    fs::permissions(locked, fs::perms::owner_all);
+}
+
+TEST_F(Outputs, AKillAtAnyMomentLeavesAWholeFile) {
+    const std::string out = folder_ / "a.exr", other = folder_ / "b.exr";
+    const ProcessResult whole = runCutis(renderTo(other));
+    expectSuccess(whole);
+    const std::string made = readText(other);
+    int old = 0;
+    constexpr int kMoments = 8;
+    for (int moment = 1; moment <= kMoments; ++moment) {
+        writeText(out, "old");
+        std::vector<std::string> arguments = {CUTIS_PROGRAM};
+        const std::vector<std::string> render = renderTo(out);
+        arguments.insert(arguments.end(), render.begin(), render.end());
+        // The last moments are those of writing.
+        runProcess(arguments, {{"CUTIS_CACHE_DIR", CUTIS_TEST_CACHE_DIR}}, whole.seconds * moment / kMoments);
+        const std::string left = readText(out);
+        EXPECT_TRUE(left == "old" || left == made)
+            << "a part of a file, killed after " << moment << "/" << kMoments;
+        old += left == "old";
+    }
+    EXPECT_GT(old, 0) << "no kill came early enough";
+    // What a killed process has left behind disturbs nobody.
+    expectSuccess(runCutis(renderTo(out)));
+    EXPECT_EQ(readText(out), made);
+}
+
+TEST_F(Outputs, AnInterruptedReferenceEndsWith130AndNoDebris) {
+    const ProcessResult run =
+        runProcess({"/usr/bin/timeout", "--preserve-status", "-s", "INT", "1", CUTIS_PROGRAM, "reference",
+                    scene_, "--size", "640x360", "--error", "0.01%", "-o", folder_ / "a.exr"},
+                   {{"CUTIS_CACHE_DIR", CUTIS_TEST_CACHE_DIR}}, 60);
+    EXPECT_EQ(run.status, 130) << run.err;
+    EXPECT_EQ(filesIn(folder_.path()), (std::vector<std::string>{"heads.glb", "sky.exr"}));
+}
+
+// Everything that fills the cache: a rig in an environment, with its reference.
+class Caches : public Outputs {
+  protected:
+    ProcessResult render(const std::string& out) const {
+        std::vector<std::string> arguments = renderTo(out);
+        arguments.insert(arguments.end(), {"--env", sky_, "--aov", "specular"});
+        return runCutis(arguments, {{"CUTIS_CACHE_DIR", cache_}});
+    }
+    ProcessResult measure(const std::string& out) const {
+        return runCutis({"measure", scene_, "--size", "16x9", "--device", "cpu", "--env", sky_, "--sweep",
+                         sweep_, "--budget", "1s", "--repeats", "1", "-o", out},
+                        {{"CUTIS_CACHE_DIR", cache_}});
+    }
+    std::vector<fs::path> entries() const {
+        std::vector<fs::path> found;
+        for (const auto& entry : fs::directory_iterator(cache_))
+            if (entry.path().extension() == ".bin") found.push_back(entry.path());
+        return found;
+    }
+
+    std::string cache_ = folder_ / "cache", sweep_ = folder_ / "sweep.json";
+};
+
+TEST_F(Caches, AreSharedByProcessesThatStartTogether) {
+    std::vector<std::future<ProcessResult>> runs;
+    for (int i = 0; i < 4; ++i)
+        runs.push_back(std::async(std::launch::async,
+                                  [this, i] { return render(folder_ / (std::to_string(i) + ".exr")); }));
+    for (auto& run : runs) expectSuccess(run.get());
+    for (int i = 1; i < 4; ++i)
+        EXPECT_EQ(readText(folder_ / (std::to_string(i) + ".exr")), readText(folder_ / "0.exr"));
+    expectSuccess(render(folder_ / "later.exr"));
+    EXPECT_EQ(readText(folder_ / "later.exr"), readText(folder_ / "0.exr"));
+}
+
+TEST_F(Caches, DamagedEntriesOfEachKindAreRebuilt) {
+    writeText(sweep_, R"({"cutis_sweep":1,"settings":[{"name":"two","gaussians":2,"irradiance_size":64}]})");
+    expectSuccess(render(folder_ / "a.exr"));
+    ASSERT_EQ(measure(folder_ / "m").status, 0);
+    const std::string picture = readText(folder_ / "a.exr");
+    std::map<std::string, std::string> kinds;  // and what their entries hold
+    for (const fs::path& entry : entries()) {
+        const std::string name = entry.filename();
+        kinds[name.substr(0, name.rfind('-'))] += name + " ";
+    }
+    for (const char* kind :
+         {"environment", "environment-sources", "specular-lobes", "reference", "measurement"})
+        EXPECT_TRUE(kinds.count(kind)) << "no entry of " << kind;
+    const auto damage = [](const std::string& whole, int how) -> std::string {
+        if (how == 0) return "";
+        if (how == 1) return whole.substr(0, whole.size() / 2);
+        if (how == 2) return std::string(whole.size(), '\0');
+        std::string flipped = whole;
+        flipped[whole.size() * 3 / 4] ^= 1;
+        return flipped;
+    };
+    for (int how = 0; how < 4; ++how) {
+        std::map<fs::path, std::string> damaged;
+        for (const fs::path& entry : entries())
+            writeText(entry, damaged[entry] = damage(readText(entry), how));
+        expectSuccess(render(folder_ / "b.exr"));
+        EXPECT_EQ(readText(folder_ / "b.exr"), picture) << "damage " << how;
+        const ProcessResult measured = measure(folder_ / "m");
+        EXPECT_EQ(measured.status, 0) << measured.err;
+        for (const auto& [entry, bytes] : damaged)
+            EXPECT_NE(readText(entry), bytes) << entry << " is as damaged, " << how;
+    }
+}
+
+}  // namespace
+}  // namespace cutis::test
