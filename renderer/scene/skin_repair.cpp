@@ -13,9 +13,13 @@ constexpr double kClearVolume = 0.005;
 // Mean cosine between normals of vertices and of triangles: 0.99 on a head, 1/3 on a tetrahedron.
 constexpr double kClearlyInwards = -0.25;
 
+// Area of a mesh's holes over its own, up to which it has an inside: the neck of a bust is 0.07.
+constexpr double kMostOpen = 0.2;
+
 struct Enclosed {
     double volume = 0, area = 0;
-    double agreement = 0;  // area-weighted mean of N · (normal of the triangle), times the area
+    glm::dvec3 directed{0};  // sum of area times normal: that of the holes, turned about
+    double agreement = 0;    // area-weighted mean of N · (normal of the triangle), times the area
 };
 
 glm::dvec3 centroidOf(const Mesh& mesh, const std::vector<bool>& counted) {
@@ -43,6 +47,7 @@ Enclosed enclosedBy(const Mesh& mesh, const std::vector<bool>& counted) {
             const glm::dvec3 twice = glm::cross(b - a, c - a);  // normal times twice the area
             sum.volume += glm::dot(a, glm::cross(b, c)) / 6;
             sum.area += 0.5 * glm::length(twice);
+            sum.directed += 0.5 * twice;
             for (int corner = 0; corner < 3; ++corner)
                 sum.agreement += glm::dot(glm::dvec3(primitive.normals[v[corner]]), twice) / 6;
         }
@@ -72,7 +77,9 @@ void turnSkinOutwards(Scene& scene) {
         }
         const Enclosed enclosed = enclosedBy(mesh, counted);
         const double clear = kClearVolume * std::pow(enclosed.area, 1.5);
-        if (!(std::abs(enclosed.volume) > clear)) continue;
+        if (!(std::abs(enclosed.volume) > clear) ||
+            glm::length(enclosed.directed) > kMostOpen * enclosed.area)
+            continue;
         const bool insideOut = enclosed.volume < 0;
         // After the triangles are turned, where they are.
         const bool normalsInwards =

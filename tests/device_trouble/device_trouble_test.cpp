@@ -74,10 +74,10 @@ TEST_F(DeviceTrouble, LostInTheMiddle) {
     }
 }
 
-constexpr const char* kSomeMemory = "memory:120000000";
+constexpr const char* kSomeMemory = "memory:48000000";
 
 TEST_F(DeviceTrouble, WithLessMemoryThePictureIsDrawnCoarserAndSaysSo) {
-    size_ = "960x540";
+    size_ = "240x135";
     const std::vector<std::string> options = {"--rig", "three-point", "--stats", folder_ / "s.json"};
     expectSuccess(renderIn("none", options));
     const Picture whole = readPicture(out_);

@@ -53,20 +53,81 @@ std::vector<Extreme> thicknesses() {
                  builder.addObject("slab", front, skin);
                  return inLight(pictureOf(builder), {directionalLight("behind", {0, 0, 1}, 1)});
              },
-             Bounds3::atMost(1.01 / 3.14159)});
+             // Without thickness all of it.
+             metres < 1e-5 ? Bounds3::near(1 / 3.14159, 0.03) : Bounds3::atMost(1.01 / 3.14159)});
     }
+    // A card: one sheet, seen and lit from both sides.
+    cases.push_back({"card_of_two_sides",
+                     [] {
+                         SceneBuilder builder;
+                         const int skin = builder.addSkin(SceneBuilder::plainSkin());
+                         builder.addObject("card", makePlate(0.15), skin);
+                         RenderJob job =
+                             inLight(pictureOf(builder), {directionalLight("front", {0, 0, -1}, 1),
+                                                          directionalLight("behind", {0, 0, 1}, 1)});
+                         job.scene.materials[skin].doubleSided = true;
+                         return job;
+                     },
+                     Bounds3::atMost(2.02 / 3.14159)});
     return cases;
 }
 
+// Appends a mesh to another.
+void append(Primitive& to, const Primitive& mesh) {
+    const auto first = static_cast<std::uint32_t>(to.positions.size());
+    to.positions.insert(to.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    to.normals.insert(to.normals.end(), mesh.normals.begin(), mesh.normals.end());
+    to.uv0.insert(to.uv0.end(), mesh.uv0.begin(), mesh.uv0.end());
+    for (const std::uint32_t i : mesh.indices) to.indices.push_back(first + i);
+}
+
+// Two bodies in one mesh, their charts side by side, the second moved by `offset`.
+Primitive joined(Primitive a, Primitive b, const glm::vec3& offset) {
+    for (glm::vec3& p : b.positions) p += offset;
+    for (glm::vec2& uv : a.uv0) uv.x *= 0.5f;
+    for (glm::vec2& uv : b.uv0) uv.x = 0.5f + 0.5f * uv.x;
+    append(a, b);
+    return a;
+}
+
 std::vector<Extreme> meshes() {
-    return {body("inside_out",
+    return {body("self_intersecting",
                  [] {
-                     Primitive mesh = sphere();
-                     for (glm::vec3& n : mesh.normals) n = -n;
-                     for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
-                         std::swap(mesh.indices[i], mesh.indices[i + 1]);
-                     return mesh;
+                     return joined(sphere(), makeSphere(80 * kMm, SphereMapping::latLong), {0.05f, 0, 0});
                  }),
+            body("three_sheets_at_an_edge",
+                 [] {
+                     Primitive fin = makePlate(0.1);
+                     for (glm::vec3& p : fin.positions) p = {0, p.y, p.x};
+                     for (glm::vec3& n : fin.normals) n = {-1, 0, 0};
+                     return joined(makePlate(0.2), fin, {0, 0, 0.05f});
+                 }),
+            body(
+                "normals_of_zero",
+                [] {
+                    Primitive mesh = sphere();
+                    mesh.normals.assign(mesh.normals.size(), glm::vec3(0));
+                    return mesh;
+                },
+                Bounds3::near(1, kFurnace)),
+            body(
+                "no_normals",
+                [] {
+                    Primitive mesh = sphere();
+                    mesh.normals.clear();
+                    return mesh;
+                },
+                Bounds3::near(1, kFurnace)),
+            body(
+                "inside_out",
+                [] {
+                    Primitive mesh = sphere();
+                    for (glm::vec3& n : mesh.normals) n = -n;
+                    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+                        std::swap(mesh.indices[i], mesh.indices[i + 1]);
+                    return mesh;
+                },
+                Bounds3::near(1, kFurnace)),
             body("open",
                  [] {
                      Primitive mesh = sphere();
@@ -121,7 +182,13 @@ Extreme mapped(const std::string& name, const std::function<glm::vec2(glm::vec2)
 }
 
 std::vector<Extreme> charts() {
-    return {mapped("of_no_area", [](glm::vec2) { return glm::vec2(0.5f); }),
+    return {body("uv_missing",
+                 [] {
+                     Primitive mesh = sphere();
+                     mesh.uv0.clear();
+                     return mesh;
+                 }),
+            mapped("of_no_area", [](glm::vec2) { return glm::vec2(0.5f); }),
             mapped("needle", [](glm::vec2 uv) { return glm::vec2(uv.x, uv.y * 1e-6f); }),
             mapped("sheared", [](glm::vec2 uv) { return glm::vec2(uv.x + 1000 * uv.y, uv.y); }),
             mapped("stretched_1_to_1000",
@@ -143,8 +210,20 @@ RenderJob placed(double scale, const glm::dvec3& offset = glm::dvec3(0),
     return inLight(inUniformLight(pictureOf(builder)), {key()});
 }
 
+// The same with other planes of the camera.
+RenderJob between(double znear, double zfar) {
+    RenderJob job = placed(1);
+    job.scene.cameras[0].znear = znear, job.scene.cameras[0].zfar = zfar;
+    return job;
+}
+
 std::vector<Extreme> worlds() {
     std::vector<Extreme> cases;
+    cases.push_back(
+        {"planes_far_apart", [] { return between(1e-6, 1e9); }, {}, [] { return placed(1); }, 1, 2e-3});
+    cases.push_back({"planes_close_together", [] { return between(0.4, 0.4001); }});
+    cases.back().leastPixels = 0;
+    cases.push_back({"near_plane_through_the_body", [] { return between(0.45, 10); }});
     for (const int exponent : {-4, 4}) {
         cases.push_back({"scale_1e" + std::to_string(exponent + 4),
                          [exponent] { return placed(std::pow(10.0, exponent)); },

@@ -10,8 +10,6 @@
 namespace cutis::test {
 namespace {
 
-constexpr double kLeastCosine = 0.2;
-
 void checkFinite(const std::string& name, const Picture& picture) {
     EXPECT_EQ(countNonfinite(picture), 0u) << name;
 }
@@ -22,12 +20,12 @@ struct Range {
     int pixels = 0;
 };
 
-Range rangeOf(const Rendered& result) {
+Range rangeOf(const Rendered& result, double leastCosine) {
     Range range;
     for (int y = 0; y < result.picture.height; ++y)
         for (int x = 0; x < result.picture.width; ++x) {
             if (valueAt(result.picture, x, y, 3) < 0.999 ||
-                valueAt(result.aov("normal"), x, y, 2) < kLeastCosine)
+                valueAt(result.aov("normal"), x, y, 2) < leastCosine)
                 continue;
             range.least = glm::min(range.least, rgbAt(result.picture, x, y));
             range.most = glm::max(range.most, rgbAt(result.picture, x, y));
@@ -72,9 +70,9 @@ void check(const Extreme& extreme) {
     for (const auto& [name, picture] : result.aovs) checkFinite(name, picture);
     for (const char* name : {"diffuse", "specular", "irradiance"})
         for (const float value : result.aov(name).values) ASSERT_GE(value, 0) << name;
-    const Range range = rangeOf(result);
+    const Range range = rangeOf(result, extreme.leastCosine);
     if (job.width == kPixels && job.height == kPixels) {
-        EXPECT_GT(range.pixels, 100) << "nearly nothing is seen";
+        EXPECT_GT(range.pixels, extreme.leastPixels) << "nearly nothing is seen";
     }
     for (int c = 0; c < 3 && range.pixels > 0; ++c) {
         EXPECT_GE(range.least[c], extreme.bounds.least[c]) << "channel " << c;

@@ -13,7 +13,7 @@
 namespace cutis::test {
 
 // Every value of the picture and of its AOVs must be finite and none below zero; besides, of the pixels that
-// see the surface at 0.2 ≤ N·V:
+// see the surface at N·V of leastCosine and more:
 struct Bounds3 {
     glm::dvec3 least{0}, most{std::numeric_limits<double>::infinity()};  // radiance
     static Bounds3 near(double value, double tolerance) {
@@ -29,6 +29,9 @@ struct Extreme {
     // A picture that must equal `factor` times this one, within a relative L2 of `tolerance`.
     std::function<RenderJob()> other = {};
     double factor = 1, tolerance = 0;
+    // Pixels that see the surface at this N·V or more are held to the bounds.
+    double leastCosine = 0.2;
+    int leastPixels = 100;  // so many
 };
 
 void PrintTo(const Extreme& extreme, std::ostream* out);

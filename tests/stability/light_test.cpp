@@ -98,7 +98,12 @@ std::vector<Extreme> shapes() {
             {"rect_of_no_size", rect(1e-9, 1e-9)},
             {"rect_a_line", rect(1e-9, 1)},
             // Seen from anywhere it fills the half space in front at the most.
-            {"rect_huge", rect(1e4, 1e4), Bounds3::atMost(1.02)}};
+            {"rect_huge", rect(1e4, 1e4), {glm::dvec3(0.2), glm::dvec3(1.4)}},
+            {"rect_huge_of_64_samples",
+             [] {
+                 return lit(rectLight("box", {0, 0, 0.5}, {0, 0, -1}, 1, 1e4, 1e4, 64));
+             },
+             {glm::dvec3(0.4), glm::dvec3(1.1)}}};
 }
 
 Extreme environment(const std::string& name, int width, int height,
@@ -122,6 +127,10 @@ std::vector<Extreme> environments() {
         environment("one_column", 1, 64, one, Bounds3::near(1, 0.03)),
         environment("sun_of_1e9_beside_1e-6", 64, 32,
                     [](const glm::dvec3& d) { return glm::dvec3(d.y > 0.995 ? 1e9 : 1e-6); }),
+        environment("one_lit_texel", 64, 32,
+                    [](const glm::dvec3& d) {
+                        return glm::dvec3(glm::dot(d, {0.1, 0.2, 0.97}) > 0.998 ? 100 : 0);
+                    }),
         environment("near_the_largest_float", 16, 8, [](const glm::dvec3&) { return glm::dvec3(1e30); }),
         environment("near_the_least_float", 16, 8, [](const glm::dvec3&) { return glm::dvec3(1e-30); })};
     for (Extreme& extreme : cases)

@@ -20,6 +20,16 @@ RenderJob withPicture(int width, int height) {
     return job;
 }
 
+// Six charts in the smallest atlas.
+RenderJob chartsOneTexelWide() {
+    SceneBuilder builder;
+    builder.addObject("body", makeSphere(100 * kMm, SphereMapping::cube),
+                      builder.addSkin(SceneBuilder::plainSkin()));
+    RenderJob job = inUniformLight(pictureOf(builder));
+    job.irradianceSize = 8;
+    return job;
+}
+
 RenderJob crowd() {
     SceneBuilder builder;
     const int skin = builder.addSkin(SceneBuilder::plainSkin());
@@ -34,7 +44,9 @@ RenderJob crowd() {
 }
 
 std::vector<Extreme> sizes() {
-    return {{"atlas_16", [] { return withAtlas(16); }, Bounds3::near(1, 0.05)},
+    return {{"atlas_8", [] { return withAtlas(8); }, Bounds3::near(1, 0.05)},
+            {"charts_one_texel_wide", chartsOneTexelWide, Bounds3::atMost(1.05)},
+            {"atlas_16", [] { return withAtlas(16); }, Bounds3::near(1, 0.05)},
             {"atlas_2048", [] { return withAtlas(2048); }, Bounds3::near(1, 0.03)},
             {"picture_1x1", [] { return withPicture(1, 1); }, Bounds3::near(1, 0.03)},
             {"picture_16384x1", [] { return withPicture(16384, 1); }},

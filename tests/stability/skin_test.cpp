@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "extreme.h"
 
@@ -39,6 +40,7 @@ std::vector<Extreme> lobes() {
     std::vector<Extreme> cases;
     for (const double roughness : {1e-3, 1e-2, 1.0})
         for (const double specular : {0.0, 1.0, 4.0}) {
+            if (specular == 0 && roughness < 1) continue;  // the lobe is not there
             cases.push_back(furnace("roughness_1e" +
                                         std::to_string(std::lround(10 * std::log10(roughness)) + 30) +
                                         "_specular_" + std::to_string(std::lround(specular)),
@@ -52,6 +54,22 @@ std::vector<Extreme> lobes() {
         {"grazing_light", [] {
              return inLight(sphereJob(skinOf(0.1, 4)), {directionalLight("rim", {1, 0, 1e-4}, 1)});
          }});
+    // A plate of 1 km seen at N·V = 1e-4 fills half of the picture.
+    for (const double roughness : {1e-3, 0.3}) {
+        cases.push_back(
+            {"grazing_view_roughness_1e" + std::to_string(std::lround(10 * std::log10(roughness)) + 30),
+             [roughness] {
+                 SceneBuilder builder;
+                 const glm::dmat4 tilt =
+                     glm::rotate(glm::dmat4(1), -(std::acos(-1.0) / 2 - 1e-4), glm::dvec3(1, 0, 0));
+                 builder.addObject("plate", makePlate(1000), builder.addSkin(skinOf(roughness, 1)), tilt);
+                 RenderJob job = inUniformLight(pictureOf(builder));
+                 job.scene.cameras[0].znear = 0.01, job.scene.cameras[0].zfar = 2000;
+                 return job;
+             },
+             Bounds3::atMost(1 + kFurnace)});
+        cases.back().leastCosine = 0;
+    }
     return cases;
 }
 

@@ -1,0 +1,74 @@
+// The cases that make sense for any scene, `cutis measure --sweep stability`, on two bodies in one run of the
+// program.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "extreme.h"
+#include "renderer/measure/stability.h"
+#include "renderer/scene/gltf_writer.h"
+#include "tests/support/pictures.h"
+#include "tests/support/process.h"
+
+namespace cutis::test {
+namespace {
+
+using Json = nlohmann::json;
+
+// How far a case may be off where its references are good to 2 %: pictures of 32 x 32, most of whose error is
+// at the rim.
+struct Limit {
+    double drift, error;
+};
+
+Limit limitOf(const std::string& name) {
+    // Gaussians wider than the body see around it, which texture space does not: the body becomes darker than
+    // it should.
+    if (name == "profile 1000 times as wide" || name == "variances eight decades apart") return {0.8, 0.8};
+    // Its light falls within a few texels.
+    if (name == "a bulb 1 mm before the skin" || name == "a bulb in the skin") return {0.9, 1.0};
+    // A highlight far below a pixel: nine samples of it against the reference's hundreds.
+    if (name.starts_with("roughness 0.001")) return {0.5, 6.0};
+    if (name == "atlas of 16") return {0.1, 0.3};
+    return {0.05, 0.2};
+}
+
+TEST(Sweep, EveryCaseHolds) {
+    const TemporaryFolder folder("cutis-sweep");
+    SceneBuilder builder;
+    builder.addObject("body", makeSphere(50 * kMm, SphereMapping::cube),
+                      builder.addSkin(SkinMaterial(), {0.8, 0.6, 0.5}));
+    builder.setOrthographicCamera({0, 0, 0.5}, {0, 0, 0}, 0.11);
+    writeGlb(builder.scene(), folder / "scene.glb");
+    writeExr(folder / "sky.exr",
+             makeEnvironment(16, 8, [](const glm::dvec3& w) { return glm::dvec3(1 + w.y); }));
+    std::ofstream(folder / "test.rig.json") << R"({"cutis_rig": 1, "environment": {"file": "sky.exr"},
+        "lights": [{"type": "directional", "direction": [0.5, -0.5, -1], "intensity": 2},
+                   {"type": "point", "position": [-0.4, 0.1, 0.3], "intensity": 0.2}]})";
+    const ProcessResult run =
+        runProcess({CUTIS_PROGRAM, "measure", folder / "scene.glb", "--rig", folder / "test.rig.json",
+                    "--sweep", "stability", "--size", "32x32", "--error", "2%", "--repeats", "1", "--device",
+                    "cpu", "-o", folder / "out"},
+                   {{"CUTIS_CACHE_DIR", CUTIS_TEST_CACHE_DIR}});
+    ASSERT_EQ(run.status, 0) << run.err;
+    std::printf("%s", run.out.c_str());
+    EXPECT_NE(run.out.find(std::to_string(stabilityCases().size()) + " cases, none failed."),
+              std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/index.html"));
+    const Json rows = Json::parse(std::ifstream(folder / "out/measure.json"))["settings"];
+    ASSERT_EQ(rows.size(), stabilityCases().size());
+    for (const Json& row : rows) {
+        const std::string name = row["name"];
+        ASSERT_FALSE(row.contains("failure")) << row;
+        EXPECT_NE(run.out.find(name), std::string::npos) << name;
+        EXPECT_EQ(row["nonfinite"], 0) << name;
+        const Limit limit = limitOf(name);
+        EXPECT_LE(std::abs(row["bias"].get<double>()), limit.drift) << name;
+        EXPECT_LE(row["rel_l2"].get<double>(), limit.error) << name;
+    }
+}
+
+}  // namespace
+}  // namespace cutis::test
