@@ -36,9 +36,13 @@ void recordMeasurement(const Inputs& inputs, const gpu::DeviceInfo& device, cons
 KnownFront knownFront(const Inputs& inputs, const gpu::DeviceInfo& device) {
     const std::vector<std::byte> recorded = readCache(kCacheKind, measurementKey(inputs, device));
     if (recorded.empty()) return {defaultFront(), false};
-    return {readFront({reinterpret_cast<const char*>(recorded.data()), recorded.size()},
-                      (cacheFolder() / kCacheKind).string()),
-            true};
+    try {
+        return {readFront({reinterpret_cast<const char*>(recorded.data()), recorded.size()},
+                          (cacheFolder() / kCacheKind).string()),
+                true};
+    } catch (const Error&) {  // whole, but of another version: the next measurement replaces it
+        return {defaultFront(), false};
+    }
 }
 
 bool anyMeasurement() {

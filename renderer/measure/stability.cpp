@@ -180,7 +180,7 @@ void appendWorldCases(std::vector<StabilityCase>& cases) {
                          placeWorld(subject, 1, {1e6, 0, 1e6});
                      },
                      1});
-    for (const int size : {16, 2048})
+    for (const int size : {64, 1024})
         cases.push_back({"atlas of " + std::to_string(size),
                          [size](MeasuredSubject& subject) { subject.quality.irradianceSize = size; }, 1});
 }
