@@ -39,6 +39,7 @@ int runRigList(const Request& request);
 int runRigShow(const Request& request);
 int runRigCheck(const Request& request);
 int runRigExport(const Request& request);
+int runSkinExport(const Request& request);
 int runDevices(const Request& request);
 
 }  // namespace cutis::app

@@ -68,6 +68,10 @@ std::span<const Command> commands() {
          "becomes a "
          "spot of equal candela on its axis, and a radius is lost.",
          runRigExport},
+        {"skin", "export", "SCENE", 1, 1, kSkinExport, true, "A copy of a glTF scene that says which materials are skin",
+         "Writes what --skin, a skin file of the viewer, names or hints say into material.extras.skin; all else of the "
+         "file stays as it is.",
+         runSkinExport},
         {"", "devices", "", 0, 0, kNoCommand, false, "The GPUs of this machine, and which one cutis takes",
          "", runDevices},
     };

@@ -203,6 +203,11 @@ std::vector<Option> makeOptions() {
          [](Request& r, const std::string& text) {
              addOutput(r, text, {".glb", ".json"});
          }},
+        {"-o, --output", "FILE", kSkinExport, output,
+         "The copy: .glb or .gltf as the scene is, beside it where the scene refers to other files", false,
+         [](Request& r, const std::string& text) {
+             addOutput(r, text, {".glb", ".gltf"});
+         }},
         {"--aov", "LIST", kRender, output,
          "Also write OUT.NAME.exr beside the first output for each name of this comma-separated list: " +
              listOf(kAovNames),
@@ -330,7 +335,7 @@ std::vector<Option> makeOptions() {
         {"--fps", "N", kRender, view, "Frames a second: frame F shows the time F / N (default: 24)", false,
          [](Request& r, const std::string& text) { r.fps = parseNumber(text, kMinFps, kMaxFps); }},
 
-        {"--skin", "GLOB", kView, quality,
+        {"--skin", "GLOB", kView | kSkinExport, quality,
          "Materials whose names match are skin, or 'none', or a file that ends in .json says so, as the viewer saves it (default: those marked in the file, else those "
          "named like "
          "skin, head, face or body)",

@@ -64,7 +64,7 @@ struct Request {
 };
 
 // Commands that take an option, as a set of bits.
-enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4, kReference = 8, kCompare = 16, kMeasure = 32, kViewer = 64, kPlan = 128 };
+enum CommandSet : unsigned { kNoCommand = 0, kRender = 1, kRigCheck = 2, kRigExport = 4, kReference = 8, kCompare = 16, kMeasure = 32, kViewer = 64, kPlan = 128, kSkinExport = 256 };
 
 struct Option {
     std::string_view names;    // "-o, --output", the long one last

@@ -17,6 +17,7 @@ constexpr const char* kSupported[] = {
     "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_unlit",
     "KHR_mesh_quantization", "KHR_texture_transform",           "EXT_texture_webp",
     "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+    "KHR_materials_diffuse_transmission", "KHR_materials_volume", "KHR_materials_volume_scatter",  // as hints at skin
 };
 
 // Values of the character set of RFC 4648, -1 for others.

@@ -94,8 +94,11 @@ class MaterialReader {
             if (!used[i]) continue;
             map_.sceneMaterial[i] = int(scene_.materials.size());
             scene_.materials.push_back(readMaterial(entry));
+            hints_.resize(scene_.materials.size());
+            if (!marked) hints_.back() = hintedSkin(entry);
             if (marked) scene_.materials.back().skin = parseSkinMaterial(extras->member("skin"));
         }
+        if (!map_.skinMarked) takeHints();
         if (needsDefault_) {
             Material material;
             material.name = "default";
@@ -106,6 +109,20 @@ class MaterialReader {
     }
 
   private:
+    // Where no material says whether it is skin, those that scatter light through a volume are.
+    void takeHints() {
+        std::string names;
+        for (std::size_t i = 0; i < hints_.size(); ++i) {
+            if (!hints_[i]) continue;
+            scene_.materials[i].skin = hints_[i];
+            names += (names.empty() ? "'" : ", '") + scene_.materials[i].name + "'";
+        }
+        if (names.empty()) return;
+        map_.skinMarked = true;
+        warn("no material has extras.skin: taken as skin by its diffuse transmission and volume: " + names +
+             " (--skin decides otherwise), " + document_.file().string());
+    }
+
     std::vector<bool> usedMaterials() {
         std::vector<bool> used(document_.count("materials"), false);
         std::vector<bool> meshSeen(document_.count("meshes"), false);
@@ -215,6 +232,7 @@ class MaterialReader {
     std::map<std::tuple<int, bool, Wrap, Wrap, bool, bool>, std::size_t>
         textures_;                               // their place in the scene
     std::map<std::size_t, std::size_t> images_;  // per image of the file: its place in the scene
+    std::vector<std::optional<SkinMaterial>> hints_;  // per material of the scene
     bool needsDefault_ = false;
 };
 

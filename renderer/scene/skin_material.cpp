@@ -1,6 +1,8 @@
 #include "renderer/scene/skin_material.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "renderer/core/error.h"
@@ -51,6 +53,30 @@ skin::Profile parseProfile(const JsonView& value) {
     return skin::sorted(profile);
 }
 
+// Light that falls off as exp(-r/ℓ)/(2πℓr) is a mixture of Gaussians whose variances are ℓ²·x², x normally distributed:
+// the nodes of Gauss-Hermite quadrature with six points give the second moment, ⟨r²⟩ = 2ℓ², exactly.
+skin::Profile exponentialProfile(const glm::dvec3& lengthsMm) {
+    constexpr struct {
+        double squared, weight;
+    } kNodes[] = {{0.380327, 0.8176569}, {3.568986, 0.1772315}, {11.050688, 0.0051116}};
+    skin::Profile profile;
+    for (int channel = 0; channel < 3; ++channel) {
+        for (const auto& node : kNodes) {
+            glm::dvec3 weight(0);
+            weight[channel] = node.weight;
+            const double variance = node.squared * lengthsMm[channel] * lengthsMm[channel];
+            const auto same = std::find_if(profile.gaussians.begin(), profile.gaussians.end(),
+                                           [&](const skin::Gaussian& g) { return g.variance == variance; });
+            if (same != profile.gaussians.end()) {
+                same->weight += weight;
+            } else {
+                profile.gaussians.push_back({variance, weight});
+            }
+        }
+    }
+    return skin::sorted(profile);
+}
+
 }  // namespace
 
 std::optional<SkinMaterial> parseSkinMaterial(const JsonView& value) {
@@ -66,6 +92,29 @@ std::optional<SkinMaterial> parseSkinMaterial(const JsonView& value) {
     read(value, fields::kSpecular, skin.specular);
     skin.translucency = value.boolean(fields::kTranslucency.key, skin.translucency);
     read(value, fields::kMmPerUnit, skin.mmPerUnit);
+    return skin;
+}
+
+std::optional<SkinMaterial> hintedSkin(const JsonView& material) {
+    const auto extensions = material.find("extensions");
+    if (!extensions || extensions->find("KHR_materials_transmission")) return std::nullopt;
+    const auto diffuse = extensions->find("KHR_materials_diffuse_transmission");
+    const auto volume = extensions->find("KHR_materials_volume");
+    const bool scatters = diffuse || extensions->find("KHR_materials_volume_scatter");
+    if (!scatters || !volume || !(volume->number("thicknessFactor", 0) > 0)) return std::nullopt;
+    SkinMaterial skin;
+    skin.translucency = !diffuse || diffuse->number("diffuseTransmissionFactor", 0) > 0;
+    const auto distance = volume->find("attenuationDistance");  // metres; none: endless
+    if (!distance) return skin;
+    constexpr double kShortestMm = 0.01, kLongestMm = 100;
+    std::vector<double> color{1, 1, 1};
+    if (const auto given = volume->find("attenuationColor")) color = given->numbers(3);
+    glm::dvec3 lengths;
+    for (int c = 0; c < 3; ++c) {
+        const double depth = -std::log(std::clamp(color[c], 1e-6, 1 - 1e-6));  // optical, of that distance
+        lengths[c] = std::clamp(distance->number() * skin.mmPerUnit / depth, kShortestMm, kLongestMm);
+    }
+    skin.profile = exponentialProfile(lengths);
     return skin;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 const std::vector<std::vector<std::string>> kCommands = {
     {"view"},        {"render"},      {"plan"},         {"reference"},    {"compare"},       {"measure"},
-    {"rig", "list"}, {"rig", "show"}, {"rig", "check"}, {"rig", "export"}, {"devices"}};
+    {"rig", "list"}, {"rig", "show"}, {"rig", "check"}, {"rig", "export"}, {"skin", "export"}, {"devices"}};
 
 std::string joined(const std::vector<std::string>& words) {
     std::string text;
