@@ -5,6 +5,7 @@
 
 #include "app/frame_files.h"
 #include "renderer/core/error.h"
+#include "renderer/core/timeline.h"
 #include "renderer/core/suggest.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/environment.h"
@@ -140,7 +141,10 @@ fs::path environmentFileOf(const Rig& rig, const fs::path& rigFile) {
 Inputs loadInputs(const Request& request) {
     Inputs inputs;
     const fs::path file = sceneFile(request.operands.at(0));
-    inputs.scene = loadGltf(file, {.skin = request.skin});
+    {
+        const TimeSpan span("scene");
+        inputs.scene = loadGltf(file, {.skin = request.skin});
+    }
     inputs.animation = chooseAnimation(request, inputs.scene);
     if (inputs.animation != kAtRest) {
         const double begin = request.frames ? timeOfFrame(request, request.frames->first) : request.time.value_or(0);
@@ -151,7 +155,10 @@ Inputs loadInputs(const Request& request) {
     inputs.rigFile = std::move(named.file);
     selectLights(inputs.rig, request.lights);
     resolvePlacements(inputs.rig, inputs.scene);
-    chooseEnvironment(request, inputs);
+    {
+        const TimeSpan span("environment");
+        chooseEnvironment(request, inputs);
+    }
     inputs.camera = cameraFor(inputs.scene, request.camera, aspectOf(request));
     return inputs;
 }

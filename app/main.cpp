@@ -16,6 +16,7 @@
 #include "app/usage_error.h"
 #include "renderer/core/error.h"
 #include "renderer/core/suggest.h"
+#include "renderer/core/timeline.h"
 
 namespace cutis::app {
 
@@ -193,6 +194,7 @@ int reportErrors(const std::vector<std::string>& arguments) {
 }  // namespace cutis::app
 
 int main(int argc, char** argv) {
+    cutis::noteMain();
     cutis::app::endCleanlyOnSignals();
     return cutis::app::reportErrors({argv + 1, argv + argc});
 }

@@ -1,6 +1,7 @@
 #include "app/prepared.h"
 
 #include "renderer/core/error.h"
+#include "renderer/core/timeline.h"
 
 namespace cutis::app {
 

@@ -1,14 +1,25 @@
 #include "app/stats_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
+
+#include "renderer/core/timeline.h"
 
 namespace cutis::app {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
+
+Json timelineJson() {
+    const auto rounded = [](double ms) { return std::round(ms * 10) / 10; };
+    Json spans = Json::array();
+    for (const TimelineEntry& entry : timeline())
+        spans.push_back({{"name", entry.name}, {"from_ms", rounded(entry.fromMs)}, {"to_ms", rounded(entry.toMs)}});
+    return spans;
+}
 
 Json toJson(const RenderStats& stats) {
     Json passes = Json::array(), leftOut = Json::array();
@@ -64,7 +75,11 @@ double medianMs(const PassStats& row) {
     return 0.5 * (times[(times.size() - 1) / 2] + times[times.size() / 2]);
 }
 
-std::string statsToJson(const RenderStats& stats) { return toText(toJson(stats)); }
+std::string statsToJson(const RenderStats& stats) {
+    Json json = toJson(stats);
+    json["timeline"] = timelineJson();
+    return toText(json);
+}
 
 std::string planToJson(const RenderStats& stats, bool measured) {
     Json json = toJson(stats);

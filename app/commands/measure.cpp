@@ -78,7 +78,7 @@ std::string settingLine(const Measurement& row) {
     char text[96];
     std::snprintf(text, sizeof text, "%-28s ", row.setting.name.c_str());
     if (!row.failure.empty()) return text + ("failed: " + row.failure);
-    std::snprintf(text, sizeof text, "%-28s %.2f %% in %f ms", row.setting.name.c_str(),
+    std::snprintf(text, sizeof text, "%-28s %.2f %% in %.2f ms", row.setting.name.c_str(),
                   100 * row.diffuse.relativeL2, row.gpu.median);
     return text;
 }

@@ -11,6 +11,7 @@
 #include "app/tolerance.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
+#include "renderer/core/timeline.h"
 #include "renderer/frame/fitting.h"
 
 namespace cutis::app {
@@ -24,9 +25,12 @@ void writeResult(RenderResult& result, const Request& request, const Inputs& inp
     if (inputs.environment)
         BackgroundPainter(*inputs.environment, request.background)
             .paint(result.picture, inputs.camera, inputs.rig.environment);
-    for (const fs::path& output : request.outputs) writePicture(output, result.picture, exposure);
-    for (const std::string& name : request.settings.aovs)
-        writeExr(aovFile(request.outputs.front(), name), result.aovs.at(name));
+    {
+        const TimeSpan span("writing");
+        for (const fs::path& output : request.outputs) writePicture(output, result.picture, exposure);
+        for (const std::string& name : request.settings.aovs)
+            writeExr(aovFile(request.outputs.front(), name), result.aovs.at(name));
+    }
     if (!request.stats.empty()) writeFileAtomically(request.stats, statsToJson(result.stats));
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 
+#include "renderer/core/timeline.h"
 #include "renderer/frame/camera.h"
 #include "renderer/frame/changed_groups.h"
 #include "renderer/frame/frame.h"
@@ -133,7 +134,10 @@ bool Renderer::State::record(const PassRow& row, const Changes& changes) {
     const std::uint64_t before = frame.device->bytesAllocated();
     frame.changes = &changes;
     frame.tiles.changed = changes.groups;
-    row.record(frame);
+    {
+        const TimeSpan span(row.name);
+        row.record(frame);
+    }
     frame.changes = nullptr;
     if (whole) bytes[&row] = frame.device->bytesAllocated() - before;
     return true;
@@ -149,7 +153,10 @@ void Renderer::State::prepare(const Plan& plan, const std::vector<RowDecision>& 
         if (!commands) frame.commands = &commands.emplace(*frame.device);
         record(*plan.rows[i], decisions[i].changes);
     }
-    if (commands) commands->submitAndWait();
+    if (commands) {
+        const TimeSpan span("uploads");
+        commands->submitAndWait();
+    }
     frame.commands = nullptr;
 }
 
@@ -168,7 +175,10 @@ std::vector<gpu::PassTiming> Renderer::State::drawFrame(const Plan& plan, const 
         lit |= row.need == Need::litSkin;
     }
     readbacks = recordReadbacks(frame, lit);
-    commands.submitAndWait();
+    {
+        const TimeSpan span("frame");
+        commands.submitAndWait();
+    }
     frame.commands = nullptr;
     return commands.timings();
 }
@@ -187,7 +197,10 @@ RenderResult Renderer::State::render(const RenderInput& input, const RenderSetti
     device.resetPeak();
     frame.input = &input;
     frame.settings = &settings;
-    read();
+    {
+        const TimeSpan span("geometry");
+        read();
+    }
     const Plan plan = makePlan(frame.needs);
     const InputHashes inputs = hashInputs(frame);
     std::vector<RowDecision> decisions = kept.decide(plan, frame.needs, inputs);

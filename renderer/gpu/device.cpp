@@ -8,6 +8,7 @@
 
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
+#include "renderer/core/timeline.h"
 #include "renderer/gpu/check.h"
 #include "renderer/gpu/command_resources.h"
 #include "renderer/gpu/commands.h"
@@ -82,6 +83,7 @@ std::uint64_t hashOf(std::span<const std::byte> bytes) {
 }  // namespace
 
 Device::Device(const DeviceOptions& options) {
+    const TimeSpan span("device");
     try {
         open(options);
         memory_ = std::make_unique<MemoryAllocator>(physical_, device_);

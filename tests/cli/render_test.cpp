@@ -58,7 +58,7 @@ TEST_F(Render, StatsHaveExactlyTheirKeys) {
     using Keys = std::set<std::string>;
     EXPECT_EQ(keysOf(stats),
               (Keys{"device", "passes", "left_out", "atlas", "lights", "light_samples", "characters",
-                    "gaussians", "bytes_gpu", "nonfinite", "load_ms", "frame_ms"}));
+                    "gaussians", "bytes_gpu", "nonfinite", "load_ms", "frame_ms", "timeline"}));
     EXPECT_EQ(keysOf(stats["atlas"]), (Keys{"width", "height", "texels_covered", "texels_lit", "mm_per_texel"}));
     ASSERT_FALSE(stats["passes"].empty());
     for (const Json& pass : stats["passes"])
@@ -69,6 +69,15 @@ TEST_F(Render, StatsHaveExactlyTheirKeys) {
     EXPECT_EQ(stats["nonfinite"], 0);
     EXPECT_GT(stats["load_ms"], 0);
     EXPECT_GT(stats["frame_ms"], 0);
+    std::set<std::string> spans;
+    for (const Json& span : stats["timeline"]) {
+        EXPECT_EQ(keysOf(span), (Keys{"name", "from_ms", "to_ms"}));
+        EXPECT_GE(span["from_ms"], 0);
+        EXPECT_GE(span["to_ms"], span["from_ms"]);
+        spans.insert(span["name"]);
+    }
+    for (const char* name : {"libraries", "device", "scene", "geometry", "surface", "uploads", "frame", "writing"})
+        EXPECT_TRUE(spans.contains(name)) << name;
     EXPECT_GT(stats["bytes_gpu"], 0);
 }
 
