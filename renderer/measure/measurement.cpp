@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 
+#include "renderer/gpu/device.h"
 #include "renderer/measure/flip.h"
 
 namespace cutis {
