@@ -329,6 +329,7 @@ void RenderWorker::publish(WorkerResult result) {
     {
         const std::lock_guard lock(mutex_);
         status_.busy = false;
+        if (restarts_) return;  // made with shaders that are no more: says nothing of the new ones
         status_.error.clear();
         status_.device = result.stats.device;
         result_ = std::move(result);
