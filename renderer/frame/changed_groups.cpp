@@ -52,7 +52,7 @@ std::vector<bool> ChangedGroups::find(const FrameContext& frame, const InputHash
     asked_ = {};
     // In one picture alone, and in a scene that stands still, there is nothing to compare with.
     if (!frame.anyView || !frame.needs[Need::motion]) return {};
-    asked_ = {inputs, {std::begin(frame.needs.met), std::end(frame.needs.met)}, lightOf(frame)};
+    asked_ = {inputs, std::vector<bool>(std::begin(frame.needs.met), std::end(frame.needs.met)), lightOf(frame)};
     // What nothing that is lit depends on.
     for (const Input input : {Input::pose, Input::camera}) asked_.inputs[static_cast<std::size_t>(input)] = 0;
     std::vector<bool> changed;

@@ -8,13 +8,13 @@ namespace cutis {
 
 // The image of the atlas, or the light maps, that `inspect` asks for, on their way back. Empty where no pass wrote them.
 struct InspectReadback {
-    gpu::Readback values;
+    gpu::Readback values{};
     int side = 0, shift = 0;  // texels along each side; the atlas' side is that, shifted
     struct LightMap {
         gpu::Readback depth;
         glm::vec3 depthToDistance;  // as shared::LightView has it
     };
-    std::vector<LightMap> lightMaps;  // of `side` texels, one for each group of receivers that is lit
+    std::vector<LightMap> lightMaps{};  // of `side` texels, one for each group of receivers that is lit
 };
 InspectReadback recordInspect(const FrameContext& frame);
 
