@@ -15,8 +15,8 @@ constexpr double kLength = 0.8, kKnee = 0.4, kRadius = 0.06, kApart = 0.13;
 constexpr int kSides = 12, kRings = 33;
 
 // A tube from y = 0 to kLength that is open at its ends, round x = z = 0, its upper half bound to joint 0 and
-// its lower half to joint 1, blended over 0.2 m.
-json legPrimitive(GltfFile& file) {
+// its lower half to joint 1, blended over 0.2 m. leg: 0 or 1, its half of the texture.
+json legPrimitive(GltfFile& file, int leg) {
     std::vector<float> positions, normals, uvs, weights;
     std::vector<std::uint8_t> joints;
     std::vector<std::uint16_t> indices;
@@ -26,7 +26,7 @@ json legPrimitive(GltfFile& file) {
             const double x = std::sin(angle), z = -std::cos(angle);
             for (const double v : {kRadius * x, y, kRadius * z}) positions.push_back(float(v));
             for (const double v : {x, 0.0, z}) normals.push_back(float(v));
-            for (const double v : {double(side) / kSides, 1 - double(ring) / (kRings - 1)})
+            for (const double v : {(leg + double(side) / kSides) / 2, 1 - double(ring) / (kRings - 1)})
                 uvs.push_back(float(v));
             const auto upper = float(std::clamp((y - kKnee) / 0.2 + 0.5, 0.0, 1.0));
             for (const float w : {upper, 1 - upper, 0.f, 0.f}) weights.push_back(w);
@@ -94,8 +94,9 @@ std::filesystem::path writeWalkingBody(const std::filesystem::path& folder) {
                                {"extras", {{"skin", true}}},
                                {"pbrMetallicRoughness", {{"baseColorFactor", {0.8, 0.6, 0.5, 1}}}}},
                               {{"name", "floor"}, {"pbrMetallicRoughness", {{"metallicFactor", 0}}}}};
-    file.json["meshes"] = {{{"name", "leg"}, {"primitives", {legPrimitive(file)}}},
-                           {{"name", "floor"}, {"primitives", {floorPrimitive(file)}}}};
+    file.json["meshes"] = {{{"name", "left leg"}, {"primitives", {legPrimitive(file, 0)}}},
+                           {{"name", "floor"}, {"primitives", {floorPrimitive(file)}}},
+                           {{"name", "right leg"}, {"primitives", {legPrimitive(file, 1)}}}};
     const std::vector<float> bind{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -float(kLength), 0, 1,
                                   1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -float(kKnee),   0, 1};
     const int matrices = file.addAccessor(bind, "MAT4", kFloat, 2);
@@ -112,7 +113,7 @@ std::filesystem::path writeWalkingBody(const std::filesystem::path& folder) {
                           hip(-kApart / 2, 5),
                           knee,
                           {{"name", "left"}, {"mesh", 0}, {"skin", 0}},
-                          {{"name", "right"}, {"mesh", 0}, {"skin", 1}},
+                          {{"name", "right"}, {"mesh", 2}, {"skin", 1}},
                           {{"name", "floor"}, {"mesh", 1}}};
     file.json["scenes"] = {{{"nodes", {0, 8}}}};
     Walk walk(file);
