@@ -20,13 +20,13 @@ RenderJob withPicture(int width, int height) {
     return job;
 }
 
-// Six charts in the smallest atlas.
+// Six charts, each with its gutter, in the smallest power of two that holds them.
 RenderJob chartsOneTexelWide() {
     SceneBuilder builder;
     builder.addObject("body", makeSphere(100 * kMm, SphereMapping::cube),
                       builder.addSkin(SceneBuilder::plainSkin()));
     RenderJob job = inUniformLight(pictureOf(builder));
-    job.irradianceSize = 8;
+    job.irradianceSize = 32;
     return job;
 }
 
