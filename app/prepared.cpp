@@ -1,7 +1,6 @@
 #include "app/prepared.h"
 
 #include "renderer/core/error.h"
-#include "renderer/core/timeline.h"
 
 namespace cutis::app {
 

@@ -10,13 +10,8 @@
 namespace cutis {
 namespace {
 
-// Of a view and of the poses of all that may be seen in it.
 void addView(ContentHash& hash, const shared::LightView& view, const Geometry& geometry) {
-    hash.add(view.worldToClip, view.depthToDistance, view.texelSize);
-    for (const GeometryDraw& draw : geometry.draws) {
-        const glm::vec3 low(draw.bounds.min - geometry.origin), high(draw.bounds.max - geometry.origin);
-        if (reaches(view.worldToClip, low, high)) hash.add(draw.firstIndex, draw.pose);
-    }
+    hash.add(view.worldToClip, view.depthToDistance, view.texelSize, contentOf(view, geometry));
 }
 
 std::vector<std::uint64_t> lightOf(const FrameContext& frame) {
@@ -47,6 +42,15 @@ std::vector<std::uint64_t> lightOf(const FrameContext& frame) {
 }
 
 }  // namespace
+
+std::uint64_t contentOf(const shared::LightView& view, const Geometry& geometry) {
+    ContentHash content;
+    for (const GeometryDraw& draw : geometry.draws) {
+        const glm::vec3 low(draw.bounds.min - geometry.origin), high(draw.bounds.max - geometry.origin);
+        if (reaches(view.worldToClip, low, high)) content.add(draw.firstIndex, draw.pose);
+    }
+    return content.value();
+}
 
 std::vector<bool> ChangedGroups::find(const FrameContext& frame, const InputHashes& inputs) {
     asked_ = {};

@@ -4,9 +4,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "renderer/frame/geometry.h"
 #include "renderer/frame/kept.h"
 
 namespace cutis {
+
+// A hash of what a view of a light or of the sky shows: of the poses of all that may be seen in it.
+std::uint64_t contentOf(const shared::LightView& view, const Geometry& geometry);
 
 class ChangedGroups {
   public:

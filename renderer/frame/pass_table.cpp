@@ -3,6 +3,7 @@
 #include <string>
 
 #include "renderer/core/hash.h"
+#include "renderer/frame/changed_groups.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/opposite.h"
 #include "renderer/gpu/device.h"
@@ -64,20 +65,6 @@ void makeTarget(FrameContext& frame) {
 
 // Rows of the frame
 
-// Hashes of what each view shows, in the pose that it is in.
-std::vector<std::uint64_t> contentsOf(const std::vector<shared::LightView>& views, const Geometry& geometry) {
-    std::vector<std::uint64_t> contents;
-    for (const shared::LightView& view : views) {
-        ContentHash content;
-        for (const GeometryDraw& draw : geometry.draws) {
-            const glm::vec3 low(draw.bounds.min - geometry.origin), high(draw.bounds.max - geometry.origin);
-            if (reaches(view.worldToClip, low, high)) content.add(draw.firstIndex, draw.pose);
-        }
-        contents.push_back(content.value());
-    }
-    return contents;
-}
-
 // Draws the views that no layer holds yet. Only lights and poses may have changed for a layer to stay, and of those whose
 // view shows it neither.
 void lightMapsRow(FrameContext& frame) {
@@ -90,8 +77,10 @@ void lightMapsRow(FrameContext& frame) {
     maps.size = frame.detail.lightMapSize;
     maps.viewList =
         computeLightViews(shadowed, frame.groups, frame.geometry.casters, frame.geometry.origin, maps.size);
+    std::vector<std::uint64_t> contents;
+    for (const shared::LightView& view : maps.viewList) contents.push_back(contentOf(view, frame.geometry));
     const LightMapLayers::Assignment assigned =
-        frame.lightMapLayers.assign(maps.viewList, frame.lighting.mapsNeeded, contentsOf(maps.viewList, frame.geometry));
+        frame.lightMapLayers.assign(maps.viewList, frame.lighting.mapsNeeded, contents);
     maps.views = gpu::Buffer(*frame.device, {.name = "light views", .bytes = maps.viewList.size() * sizeof(shared::LightView)});
     frame.commands->upload(maps.views, maps.viewList);
     if (assigned.newImage) {
