@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <future>
+#include <optional>
 
 #include "app/frame_files.h"
 #include "renderer/core/error.h"
@@ -22,14 +24,18 @@ namespace {
 const char* const kDefaultScene = "default";
 const char* const kDefaultPreset = "three-point";
 
-NamedRig chooseRig(const Request& request, const Scene& scene, const fs::path& file) {
-    if (request.rig == "none") return {};
+// Nothing where it takes the scene to say.
+std::optional<NamedRig> rigByName(const Request& request) {
+    if (!request.rig || request.rig == "scene") return {};
+    return request.rig == "none" ? NamedRig{} : loadNamedRig(*request.rig);
+}
+
+NamedRig rigForScene(const Request& request, const Scene& scene, const fs::path& file) {
     if (request.rig == "scene") {
         if (scene.lights.empty())
             throw Error("cannot use --rig scene", "the scene has no lights", file.string());
         return {rigFromScene(scene), {}};
     }
-    if (request.rig) return loadNamedRig(*request.rig);
     if (!scene.lights.empty()) return {rigFromScene(scene), {}};
     fs::path beside = file;
     beside.replace_extension(".rig.json");
@@ -84,7 +90,34 @@ int chooseAnimation(const Request& request, const Scene& scene) {
     return 0;
 }
 
-void chooseEnvironment(const Request& request, Inputs& inputs) {
+// A file that is read beside others.
+class EnvironmentReader {
+  public:
+    // Begins, unless the name is empty.
+    explicit EnvironmentReader(const fs::path& file) : file_(file) {
+        if (!file.empty()) reading_ = std::async(std::launch::async, read, file);
+    }
+    // Of that file, or another. Throws Error.
+    Environment take(const fs::path& file) {
+        return reading_.valid() && file == file_ ? reading_.get() : read(file);
+    }
+
+  private:
+    static Environment read(const fs::path& file) {
+        const TimeSpan span("environment");
+        return loadEnvironment(file);
+    }
+    fs::path file_;
+    std::future<Environment> reading_;
+};
+
+// As far as it is known before the scene is.
+fs::path environmentFileBeforeScene(const Request& request, const std::optional<NamedRig>& rig) {
+    if (request.environment) return *request.environment == "none" ? fs::path() : fs::path(*request.environment);
+    return rig ? environmentFileOf(rig->rig, rig->file) : fs::path();
+}
+
+void chooseEnvironment(const Request& request, EnvironmentReader& reader, Inputs& inputs) {
     EnvironmentSettings& settings = inputs.rig.environment;
     if (request.environment == "none") {
         settings = {};
@@ -100,7 +133,7 @@ void chooseEnvironment(const Request& request, Inputs& inputs) {
     inputs.environmentFile =
         request.environment ? fs::path(settings.file) : environmentFileOf(inputs.rig, inputs.rigFile);
     if (!inputs.environmentFile.empty()) {
-        inputs.environment = loadEnvironment(inputs.environmentFile);
+        inputs.environment = reader.take(inputs.environmentFile);
         if (settings.sunRemoved) removeSun(*inputs.environment);
     } else if (request.environmentIntensity || request.environmentRotation) {
         warn("--env-intensity and --env-rotation have no effect: there is no environment");
@@ -141,6 +174,8 @@ fs::path environmentFileOf(const Rig& rig, const fs::path& rigFile) {
 Inputs loadInputs(const Request& request) {
     Inputs inputs;
     const fs::path file = sceneFile(request.operands.at(0));
+    std::optional<NamedRig> named = rigByName(request);
+    EnvironmentReader environment(environmentFileBeforeScene(request, named));
     {
         const TimeSpan span("scene");
         inputs.scene = loadGltf(file, {.skin = request.skin});
@@ -150,15 +185,12 @@ Inputs loadInputs(const Request& request) {
         const double begin = request.frames ? timeOfFrame(request, request.frames->first) : request.time.value_or(0);
         poseScene(inputs.scene, inputs.animation, begin);
     }
-    NamedRig named = chooseRig(request, inputs.scene, file);
-    inputs.rig = std::move(named.rig);
-    inputs.rigFile = std::move(named.file);
+    if (!named) named = rigForScene(request, inputs.scene, file);
+    inputs.rig = std::move(named->rig);
+    inputs.rigFile = std::move(named->file);
     selectLights(inputs.rig, request.lights);
     resolvePlacements(inputs.rig, inputs.scene);
-    {
-        const TimeSpan span("environment");
-        chooseEnvironment(request, inputs);
-    }
+    chooseEnvironment(request, environment, inputs);
     inputs.camera = cameraFor(inputs.scene, request.camera, aspectOf(request));
     return inputs;
 }

@@ -1,6 +1,7 @@
 // Everything that pictures are made with: kept from one to the next, as far as it is still good.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "renderer/frame/light_map_layers.h"
 #include "renderer/frame/lighting.h"
 #include "renderer/frame/plan.h"
+#include "renderer/frame/seam_map.h"
 #include "renderer/frame/upload.h"
 #include "renderer/passes/atlas_tiles.h"
 #include "renderer/passes/composite.h"
@@ -51,6 +53,8 @@ struct FrameContext {
     gpu::Buffer environmentSettings;
     double proxyError = 0;  // metres by which the sky's occluders may stand off the meshes
     Atlas atlas;
+    std::vector<std::uint32_t> occluderIndices;      // until they are uploaded
+    std::array<SeamMap, kCoarseLevels + 1> seamMaps;  // of each resolution of diffusion, until they are uploaded
     UploadedScene scene;
     gpu::Buffer oppositeVertices;
     TileBuffers viewTile;

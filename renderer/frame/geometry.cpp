@@ -235,7 +235,6 @@ Geometry flattenScene(const Scene& scene) {
 }
 
 std::vector<std::uint32_t> makeOcclusionProxies(Geometry& geometry, double error) {
-    const AtRest atRest(geometry);
     std::vector<std::vector<unsigned>> proxies(geometry.draws.size());
     parallelFor(geometry.draws.size(), [&](std::size_t d) {
         const GeometryDraw& draw = geometry.draws[d];

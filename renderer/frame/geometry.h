@@ -71,7 +71,7 @@ class AtRest {
 };
 
 // Vertex numbers of a coarser form of every draw, for shadows of the sky alone: they are found at a coarse resolution and
-// in a hundred directions. Surfaces of the scene at rest move by at most `error` metres. Fills the proxy ranges of the
+// in a hundred directions. Surfaces, as they stand, move by at most `error` metres. Fills the proxy ranges of the
 // draws.
 std::vector<std::uint32_t> makeOcclusionProxies(Geometry& geometry, double error);
 

@@ -91,7 +91,8 @@ struct PassRow {
     std::vector<Need> variants = {};     // other needs that change what it does
     std::vector<Resource> updates = {};  // changed in place: all rows that write or update one of these run together
     std::vector<Resource> writes;
-    void (*record)(FrameContext&);
+    void (*record)(FrameContext&) = nullptr;
+    void (*ahead)(FrameContext&) = nullptr;   // of a row before the frame: what of it the CPU can do before it is recorded (frame/ahead.h)
     void (*forget)(FrameContext&) = nullptr;  // frees what it wrote: before it runs again, and when it is left out
     bool amends = false;                      // it replaces only what has changed of what it wrote, and frees that itself
     bool byGroup = false;                     // where nothing but poses has changed it does so too, for the groups in Changes::groups

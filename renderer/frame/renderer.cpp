@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "renderer/core/timeline.h"
+#include "renderer/frame/ahead.h"
 #include "renderer/frame/camera.h"
 #include "renderer/frame/changed_groups.h"
 #include "renderer/frame/frame.h"
@@ -130,13 +131,13 @@ void Renderer::State::drop(const Plan& plan) {
 
 bool Renderer::State::record(const PassRow& row, const Changes& changes) {
     const bool whole = changes.first || !(row.amends || !changes.groups.empty());
-    if (row.forget && whole) row.forget(frame);
+    if (row.forget && whole && !row.ahead) row.forget(frame);
     const std::uint64_t before = frame.device->bytesAllocated();
     frame.changes = &changes;
     frame.tiles.changed = changes.groups;
     {
         const TimeSpan span(row.name);
-        row.record(frame);
+        if (row.record) row.record(frame);
     }
     frame.changes = nullptr;
     if (whole) bytes[&row] = frame.device->bytesAllocated() - before;
@@ -144,8 +145,12 @@ bool Renderer::State::record(const PassRow& row, const Changes& changes) {
 }
 
 void Renderer::State::prepare(const Plan& plan, const std::vector<RowDecision>& decisions) {
-    for (std::size_t i = 0; i < plan.rows.size(); ++i) {
-        if (plan.rows[i]->phase == Phase::alone && decisions[i].run) record(*plan.rows[i], decisions[i].changes);
+    {
+        Ahead ahead(frame, plan, decisions);
+        for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+            if (plan.rows[i]->phase == Phase::alone && decisions[i].run) record(*plan.rows[i], decisions[i].changes);
+        }
+        ahead.wait();
     }
     std::optional<gpu::Commands> commands;
     for (std::size_t i = 0; i < plan.rows.size(); ++i) {

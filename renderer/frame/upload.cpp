@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "renderer/frame/frame.h"
 #include "renderer/frame/seam_map.h"
@@ -259,7 +260,10 @@ void forgetMeshes(FrameContext& frame) {
 void uploadSceneTextures(FrameContext& frame) {
     const Scene& scene = *frame.input->scene;
     SceneBuffers& buffers = frame.scene.buffers;
-    TextureArrays arrays = uploadTextures(*frame.device, *frame.commands, scene, textureUses(scene, frame.geometry, frame.settings->prune));
+    gpu::Commands commands(*frame.device);
+    TextureArrays arrays =
+        uploadTextures(*frame.device, commands, scene, textureUses(scene, frame.geometry, frame.settings->prune));
+    commands.submitAndWait();
     buffers.textureGroups = static_cast<std::uint32_t>(arrays.images.size());
     buffers.textureArrays = std::move(arrays.images);
     buffers.materialTextures = std::move(arrays.sampled);
@@ -307,12 +311,14 @@ void uploadMaterials(FrameContext& frame) {
 }
 
 // The layout is that of the scene at rest, whatever pose it is in: texels stay on the skin while it moves.
-void uploadLayout(FrameContext& frame) {
-    const AtRest atRest(frame.geometry);
+void makeLayout(FrameContext& frame) {
     const AtlasOptions options{.size = frame.settings->irradianceSize,
                                .mmPerTexelWanted = frame.detail.mmPerTexel,
                                .reachMm = reachBeyondBorders(*frame.input->scene, frame.geometry, *frame.settings)};
     frame.atlas = layOutAtlas(*frame.input->scene, frame.skinMesh, frame.geometry, options);
+}
+
+void uploadLayout(FrameContext& frame) {
     SceneBuffers& buffers = frame.scene.buffers;
     buffers.atlasVertices = uploadBuffer(*frame.device, *frame.commands, "atlas vertices", frame.atlas.vertices);
     std::vector<std::uint32_t> all(frame.geometry.skinTriangleCount);
@@ -359,16 +365,21 @@ void uploadProfiles(FrameContext& frame) {
     frame.scene.buffers.gaussians = uploadBuffer(*frame.device, *frame.commands, "gaussians", terms);
 }
 
-void uploadSeams(FrameContext& frame) {
-    const AtRest atRest(frame.geometry);
+void makeSeams(FrameContext& frame) {
     const std::vector<ChartRange> charts = chartRanges(*frame.input->scene, frame.atlas, *frame.settings);
     const std::vector<int> profiles = profileNumbers(charts);
-    SeamLists& seams = frame.scene.buffers.seams;
     std::vector<std::uint32_t> shifts = levelShifts(charts, reducesLevels(*frame.settings));
     shifts.push_back(0);
     for (std::uint32_t shift = 0; shift <= kCoarseLevels; ++shift) {
         if (std::find(shifts.begin(), shifts.end(), shift) == shifts.end()) continue;
-        const SeamMap map = makeSeamMap(frame.geometry, frame.skinMesh, frame.atlas, profiles, shift);
+        frame.seamMaps[shift] = makeSeamMap(frame.geometry, frame.skinMesh, frame.atlas, profiles, shift);
+    }
+}
+
+void uploadSeams(FrameContext& frame) {
+    SeamLists& seams = frame.scene.buffers.seams;
+    for (std::uint32_t shift = 0; shift <= kCoarseLevels; ++shift) {
+        const SeamMap map = std::exchange(frame.seamMaps[shift], {});
         seams.counts[shift] = static_cast<std::uint32_t>(map.texels.size());
         if (map.texels.empty()) continue;
         seams.texels[shift] = uploadBuffer(*frame.device, *frame.commands, "seams", map.texels);
@@ -378,14 +389,18 @@ void uploadSeams(FrameContext& frame) {
 
 void forgetSeams(FrameContext& frame) { frame.scene.buffers.seams = {}; }
 
-void uploadOccluders(FrameContext& frame) {
+void makeOccluders(FrameContext& frame) {
     // A third of a texel of the finest map that these meshes are drawn into.
     double texel = std::numeric_limits<double>::infinity();
     for (const ReceiverGroup& group : frame.geometry.receiverGroups) {
         texel = std::min(texel, glm::length(group.restBounds.size()) / kVisibilityMapSize);
     }
     frame.proxyError = 0.3 * texel;
-    const std::vector<std::uint32_t> indices = makeOcclusionProxies(frame.geometry, frame.proxyError);
+    frame.occluderIndices = makeOcclusionProxies(frame.geometry, frame.proxyError);
+}
+
+void uploadOccluders(FrameContext& frame) {
+    const std::vector<std::uint32_t> indices = std::exchange(frame.occluderIndices, {});
     frame.scene.buffers.proxyIndices = uploadBuffer(*frame.device, *frame.commands, "sky occluders", indices, true);
 }
 

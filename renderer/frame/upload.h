@@ -58,6 +58,11 @@ void uploadProfiles(FrameContext& frame);
 void uploadSeams(FrameContext& frame);
 void uploadOccluders(FrameContext& frame);
 
+// What the CPU does ahead of these (frame/ahead.h), with the scene at rest.
+void makeLayout(FrameContext& frame);
+void makeSeams(FrameContext& frame);
+void makeOccluders(FrameContext& frame);
+
 // They free what these rows wrote.
 void forgetMeshes(FrameContext& frame);
 void forgetTextures(FrameContext& frame);
