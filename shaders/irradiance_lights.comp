@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // features: SHADOWS
 #include "shared/atlas_tiles.h"
+#include "shared/light_share.h"
 #include "shared/scene.h"
 #include "lib/geometry.glsl"
 #include "lib/octahedral.glsl"
@@ -27,7 +28,7 @@ layout(binding = 7, rgba32f) uniform image2D incident;    // what arrives (rgb);
 layout(binding = 8, scalar) readonly buffer LightViewBuffer { LightView lightViews[]; };
 layout(binding = 9) uniform sampler2DArrayShadow lightDepthCompare;
 layout(binding = 10) uniform sampler2DArray lightDepth;
-layout(binding = 11) writeonly uniform image2DArray lightVisibility;  // a layer a light: the share of it that arrives
+layout(binding = 11) writeonly uniform image2DArray lightVisibility;  // a layer a light (shared/light_share.h)
 #endif
 
 layout(push_constant, scalar) uniform Push {
@@ -97,7 +98,7 @@ void main() {
         imageStore(incident, texel, arriving);
 #ifdef SHADOWS
         imageStore(lightVisibility, ivec3(texel, int(push.light)),
-                   vec4(entering.a > 0.0 ? arriving.a / entering.a : 1.0));
+                   vec4(entering.a > 0.0 ? arriving.a / entering.a * LIGHT_ARRIVES : LIGHT_FACED_AWAY));
 #endif
     }
 }

@@ -30,7 +30,7 @@ layout(binding = 13, scalar) readonly buffer AtlasVertexBuffer { AtlasVertex atl
 layout(binding = 14) uniform texture2D exitance;  // rgb: M; a: island
 layout(binding = 27) uniform texture2D surfaceNormal;  // see surface.comp
 #ifdef SHADOWS
-layout(binding = 15) uniform texture2DArray lightVisibility;  // a layer a light
+layout(binding = 15) uniform texture2DArray lightVisibility;  // a layer a light (shared/light_share.h)
 #endif
 #ifdef AOVS
 layout(binding = 16) uniform texture2D incident;
@@ -160,7 +160,7 @@ void shadeSkin(inout Shade shade, Material material, vec2 atlasTexel, float isla
         // The share of each light that the irradiance pass found to arrive: of all its samples together.
         if (light.light != current) {
             current = light.light;
-            visible = lookUp(lightVisibility, at, int(current)).r;
+            visible = lightShare(lightVisibility, at, int(current));
         }
 #endif
         if (cosine <= 0.0 || dot(smoothNormal, from.direction) <= 0.0) continue;

@@ -16,6 +16,7 @@ struct AtlasChart {
     glm::uvec4 rect{0};     // x, y, width, height in texels, gutters included
     double coarsestMm = 0;  // longest side of a texel, but for the largest fifth of them
     double finestMm = 0;    // shortest side of a texel, but for the smallest fiftieth of them
+    double bodyMm2 = 0;     // area of all skin of the character, mm²
 };
 
 struct Atlas {

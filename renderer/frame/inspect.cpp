@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "renderer/core/parallel.h"
+#include "shared/light_share.h"
 
 namespace cutis {
 namespace {
@@ -22,7 +23,10 @@ class Texels {
     Texel at(int x, int y) const {
         const std::size_t index =
             std::size_t(std::clamp(y, 0, side_ - 1)) * side_ + std::clamp(x, 0, side_ - 1);
-        if (shares_) return Texel(float(std::to_integer<int>(bytes_[index])) / 255.0f);
+        if (shares_) {
+            const float stored = float(std::to_integer<int>(bytes_[index])) / 255.0f;
+            return Texel(std::min(stored / shared::LIGHT_ARRIVES, 1.0f));
+        }
         Texel texel;
         std::memcpy(&texel, &bytes_[index * sizeof texel], sizeof texel);
         return texel;

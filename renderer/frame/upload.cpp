@@ -11,6 +11,7 @@
 #include "renderer/frame/stretch.h"
 #include "renderer/gpu/device.h"
 #include "renderer/passes/diffusion.h"
+#include "renderer/skin/energy.h"
 #include "renderer/skin/specular.h"
 #include "renderer/skin/specular_lobes.h"
 
@@ -203,11 +204,36 @@ skin::Profile narrowAsOne(const skin::Profile& profile, double variance) {
     return result;
 }
 
+// The profile as texture space can hold it, of a body whose skin has that area (mm²). `texel`: the coarsest texel of a level, mm.
+//
+// A normalised blur loses nothing at the ends of the body, so a Gaussian that is wide beside it counts by what it gathers there
+// (skin::gatheredShare); and once it is as wide as the body, a wider one is as even over it. A blur of many times the width of
+// both a texel and the blur before it would step over what it is to blur, for its taps are few: levels that nothing
+// reads (weight 0) lead up to it. Profiles of skin on bodies of people need neither.
+skin::Profile onBody(const skin::Profile& profile, double area, double texel) {
+    // Taps then lie within two texels, or two standard deviations of what is blurred: what aliases is below exp(-π²/2).
+    constexpr double kWidestStep = 50;
+    skin::Profile result;
+    double before = 0;
+    for (skin::Gaussian g : profile.gaussians) {
+        g.weight *= skin::gatheredShare(g.variance, area);
+        g.variance = std::max({std::min(g.variance, area), before, 1e-30});
+        for (double step = kWidestStep * std::max({before, texel * texel, 1e-30}); step < g.variance; step *= kWidestStep) {
+            result.gaussians.push_back({step, glm::dvec3(0)});
+        }
+        before = g.variance;
+        result.gaussians.push_back(g);
+    }
+    return result;
+}
+
 }  // namespace
 
 std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, const RenderSettings& settings) {
     constexpr double kLookupVariance = 1.0 / 6;  // texels², as in shaders/lib/blur_reach.glsl
     const bool merge = settings.prune && settings.chain == Chain::exact;
+    // That of the atlas, so that charts of one profile have the same levels and light goes on from one to the other.
+    const double coarsestTexel = atlas.mmPerTexel * (reducesLevels(settings) ? 1 << kCoarseLevels : 1);
     std::vector<ChartRange> ranges;
     std::size_t terms = 0;
     for (const AtlasChart& chart : atlas.charts) {
@@ -219,6 +245,7 @@ std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, cons
         if (merge && !scene.materials[chart.material].skin->translucency) {
             range.profile = narrowAsOne(range.profile, kLookupVariance * chart.finestMm * chart.finestMm);
         }
+        if (settings.chain == Chain::exact) range.profile = onBody(range.profile, chart.bodyMm2, coarsestTexel);
         range.mmPerUnit = static_cast<float>(scene.materials[chart.material].skin->mmPerUnit);
         range.coarsestMm = chart.coarsestMm;
         range.receiverGroup = static_cast<std::uint32_t>(chart.character);

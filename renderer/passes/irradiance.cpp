@@ -4,6 +4,7 @@
 #include <string>
 
 #include "renderer/gpu/device.h"
+#include "shared/light_share.h"
 
 namespace cutis {
 namespace {
@@ -40,7 +41,7 @@ void recordLights(gpu::Device& device, gpu::Commands& commands, const Irradiance
                                                    .height = size,
                                                    .layers = std::max(lights.lightCount, 1u)});
             // Lights without shadow arrive.
-            commands.clear(light.visibility, gpu::ClearValue(1, 1, 1, 1));
+            commands.clear(light.visibility, gpu::ClearValue(shared::LIGHT_ARRIVES, 0, 0, 1));
         }
         shadowed.push_back({"LightViewBuffer", lights.views});
         shadowed.push_back({"lightVisibility", light.visibility});

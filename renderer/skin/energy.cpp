@@ -1,6 +1,8 @@
 #include "renderer/skin/energy.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace cutis::skin {
 
@@ -11,6 +13,10 @@ double transmittedFraction(double s, double albedo) {
 double exitScale(double s, double albedo, double meanAlbedo) {
     const double passed = 1 - std::clamp(meanAlbedo, 0.0, 1.0);
     return passed > 1e-9 ? transmittedFraction(s, albedo) / passed : 0;
+}
+
+double gatheredShare(double variance, double area) {
+    return -std::expm1(-area / (2 * std::numbers::pi * variance));
 }
 
 }  // namespace cutis::skin

@@ -2,6 +2,7 @@
 // and of these over those that face where the point does, since a texel of a thin rim may lie beyond its edge.
 #ifndef CUTIS_ATLAS_LOOKUP_GLSL
 #define CUTIS_ATLAS_LOOKUP_GLSL
+#include "shared/light_share.h"
 
 // Four texels and their shares, which sum to 1; all 0 where none of the four belongs to the island.
 struct AtlasLookup {
@@ -38,11 +39,15 @@ vec4 lookUp(texture2D image, AtlasLookup at) {
            at.weight.w * texelFetch(image, at.base + ivec2(1, 1), 0);
 }
 
-vec4 lookUp(texture2DArray image, AtlasLookup at, int layer) {
-    return at.weight.x * texelFetch(image, ivec3(at.base, layer), 0) +
-           at.weight.y * texelFetch(image, ivec3(at.base + ivec2(1, 0), layer), 0) +
-           at.weight.z * texelFetch(image, ivec3(at.base + ivec2(0, 1), layer), 0) +
-           at.weight.w * texelFetch(image, ivec3(at.base + ivec2(1, 1), layer), 0);
+// Share of a light that arrives, by those of the four texels that face it; none where none does, since none of it is in their
+// irradiance either.
+float lightShare(texture2DArray image, AtlasLookup at, int layer) {
+    vec4 stored = vec4(texelFetch(image, ivec3(at.base, layer), 0).r, texelFetch(image, ivec3(at.base + ivec2(1, 0), layer), 0).r,
+                       texelFetch(image, ivec3(at.base + ivec2(0, 1), layer), 0).r,
+                       texelFetch(image, ivec3(at.base + ivec2(1, 1), layer), 0).r);
+    vec4 weight = at.weight * vec4(lessThan(stored, vec4(0.5 * (LIGHT_ARRIVES + LIGHT_FACED_AWAY))));
+    float sum = weight.x + weight.y + weight.z + weight.w;
+    return sum > 0.0 ? dot(weight, stored) / (sum * LIGHT_ARRIVES) : 0.0;
 }
 
 #endif

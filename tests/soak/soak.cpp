@@ -6,6 +6,7 @@
 // Loads LOADS scene files and makes EDITS edits in between. Fails (status 1) when memory grows after the
 // first half, or when the validation layers have anything to say. The full run is 2000 loads and 10000 edits;
 // the tests run a short one.
+#include <malloc.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -36,11 +37,19 @@ constexpr int kSize = 32;  // pixels along each side
 // Growth that is none: heaps and driver pools come to rest within this.
 constexpr double kGrowthShare = 0.03, kGrowthMegabytes = 6;
 
+// What was freed but not given back is no growth: the allocator returns it first.
 double residentMegabytes() {
+    ::malloc_trim(0);
     std::ifstream statm("/proc/self/statm");
     std::uint64_t total = 0, resident = 0;
     statm >> total >> resident;
     return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+// Allocated and not freed, by all threads.
+double heapMegabytes() {
+    const struct mallinfo2 info = ::mallinfo2();
+    return static_cast<double>(info.uordblks + info.hblkhd) / 1e6;
 }
 
 // Three files that differ in what they need.
@@ -152,8 +161,8 @@ int soak(int loads, int edits) {
         resident = residentMegabytes();
         if (load <= (loads + 1) / 2) half = std::max(half, resident);
         if (load % std::max(loads / 20, 1) == 0) {
-            std::printf("soak: %d loads, %d edits, %.1f MB resident, %.1f MB on the device\n", load, edited,
-                        resident, static_cast<double>(session.deviceBytes()) / 1e6);
+            std::printf("soak: %d loads, %d edits, %.1f MB resident, %.1f MB of heap, %.1f MB on the device\n", load,
+                        edited, resident, heapMegabytes(), static_cast<double>(session.deviceBytes()) / 1e6);
             std::fflush(stdout);
         }
     }

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "tests/support/pictures.h"
 
@@ -34,7 +36,28 @@ Range rangeOf(const Rendered& result, double leastCosine) {
     return range;
 }
 
+// Relative L2 over the pixels that see nothing but the surface.
+double errorAgainst(const std::function<glm::dvec3(const glm::dvec3&)>& exact, const Rendered& result) {
+    double difference = 0, whole = 0;
+    for (int y = 0; y < result.picture.height; ++y)
+        for (int x = 0; x < result.picture.width; ++x) {
+            if (valueAt(result.picture, x, y, 3) < 0.999) continue;
+            const glm::dvec3 expected = exact(rgbAt(result.aov("normal"), x, y));
+            const glm::dvec3 off = rgbAt(result.picture, x, y) - expected;
+            difference += glm::dot(off, off), whole += glm::dot(expected, expected);
+        }
+    return std::sqrt(difference / whole);
+}
+
 }  // namespace
+
+Expected rendered(std::function<RenderJob()> job) {
+    const auto picture = std::make_shared<std::optional<Picture>>();
+    return [picture, job = std::move(job)]() -> const Picture& {
+        if (!*picture) *picture = render(job()).picture;
+        return **picture;
+    };
+}
 
 void PrintTo(const Extreme& extreme, std::ostream* out) {
     *out << extreme.name;
@@ -45,9 +68,13 @@ RenderJob pictureOf(SceneBuilder builder) {
     return {.scene = builder.scene(), .width = kPixels, .height = kPixels};
 }
 
+Primitive sphere(double radius, SphereMapping mapping) {
+    return makeSphere(radius, mapping, glm::dmat3(1), 1 / 3.0);
+}
+
 RenderJob sphereJob(const SkinMaterial& skin, const glm::dvec3& albedo) {
     SceneBuilder builder;
-    builder.addObject("body", makeSphere(100 * kMm, SphereMapping::latLong), builder.addSkin(skin, albedo));
+    builder.addObject("body", sphere(), builder.addSkin(skin, albedo));
     return pictureOf(builder);
 }
 
@@ -78,16 +105,20 @@ void check(const Extreme& extreme) {
         EXPECT_GE(range.least[c], extreme.bounds.least[c]) << "channel " << c;
         EXPECT_LE(range.most[c], extreme.bounds.most[c]) << "channel " << c;
     }
+    double error = 0;
+    if (extreme.exact) {
+        EXPECT_LE(error = errorAgainst(extreme.exact, result), extreme.tolerance);
+    }
     if (extreme.other) {
-        Picture expected = render(extreme.other()).picture;
+        Picture expected = extreme.other();
         for (std::size_t i = 0; i < expected.values.size(); ++i)
             if (i % 4 != 3) expected.values[i] *= static_cast<float>(extreme.factor);
-        EXPECT_LE(relativeL2(result.picture, expected), extreme.tolerance);
+        EXPECT_LE(error = relativeL2(result.picture, expected), extreme.tolerance);
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    std::printf("stability: %-40s %.6g to %.6g in %.1f s\n", extreme.name.c_str(),
+    std::printf("stability: %-40s %.6g to %.6g, error %.3g, in %.1f s\n", extreme.name.c_str(),
                 glm::min(range.least.x, glm::min(range.least.y, range.least.z)),
-                glm::max(range.most.x, glm::max(range.most.y, range.most.z)), seconds.count());
+                glm::max(range.most.x, glm::max(range.most.y, range.most.z)), error, seconds.count());
 }
 
 }  // namespace cutis::test

@@ -22,13 +22,19 @@ struct Bounds3 {
     static Bounds3 atMost(double value) { return {glm::dvec3(0), glm::dvec3(value)}; }
 };
 
+// A picture that several cases are compared with; it is made when the first one asks.
+using Expected = std::function<const Picture&()>;
+Expected rendered(std::function<RenderJob()> job);
+
 struct Extreme {
     std::string name;  // letters, digits and underscores
     std::function<RenderJob()> job;
     Bounds3 bounds = {};
     // A picture that must equal `factor` times this one, within a relative L2 of `tolerance`.
-    std::function<RenderJob()> other = {};
+    Expected other = {};
     double factor = 1, tolerance = 0;
+    // What each pixel must show by the normal that it sees, within the same.
+    std::function<glm::dvec3(const glm::dvec3& normal)> exact = {};
     // Pixels that see the surface at this N·V or more are held to the bounds.
     double leastCosine = 0.2;
     int leastPixels = 100;  // so many
@@ -36,13 +42,15 @@ struct Extreme {
 
 void PrintTo(const Extreme& extreme, std::ostream* out);
 
-// Renders the case and checks all of it. Prints `stability: NAME MIN MAX SECONDS`.
+// Renders the case and checks all of it. Prints name, least and most radiance, error where something is known, and seconds.
 void check(const Extreme& extreme);
 
 // A picture of 48 x 48 pixels, 0.21 m across, seen from +Z.
 inline constexpr int kPixels = 48;
 RenderJob pictureOf(SceneBuilder builder);
-// A sphere of radius 100 mm in it.
+// A sphere round the origin, of triangles about as large as pixels.
+Primitive sphere(double radius = 100 * kMm, SphereMapping mapping = SphereMapping::latLong);
+// A sphere of radius 100 mm in the picture.
 RenderJob sphereJob(const SkinMaterial& skin, const glm::dvec3& albedo = glm::dvec3(1));
 RenderJob inUniformLight(RenderJob job);  // of radiance 1
 RenderJob inLight(RenderJob job, std::vector<Light> lights);

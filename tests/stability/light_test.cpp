@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
 #include "extreme.h"
@@ -33,13 +34,21 @@ std::vector<Extreme> numbers() {
     std::vector<Extreme> cases{{"no_light", [] { return lit(std::vector<Light>{}); }, Bounds3::atMost(0)}};
     for (const int count : {64, 512}) {
         cases.push_back({"lights_" + std::to_string(count),
-                         [count] { return lit(ring(count, std::numbers::pi)); }, Bounds3::atMost(1.02)});
+                         [count] {
+                             RenderJob job = lit(ring(count, std::numbers::pi));
+                             job.irradianceSize = 64;  // each light is summed at each texel
+                             return job;
+                         },
+                         Bounds3::atMost(1.02)});
     }
     return cases;
 }
 
 std::vector<Extreme> intensities() {
     std::vector<Extreme> cases;
+    const Expected one = rendered([] {
+        return lit(directionalLight("key", {0, 0, -1}, 1));
+    });
     for (const int exponent : {-12, 12}) {
         const double factor = std::pow(10.0, exponent);
         cases.push_back({"intensity_1e" + std::to_string(exponent + 12),
@@ -47,9 +56,7 @@ std::vector<Extreme> intensities() {
                              return lit(directionalLight("key", {0, 0, -1}, factor));
                          },
                          {},
-                         [] {
-                             return lit(directionalLight("key", {0, 0, -1}, 1));
-                         },
+                         one,
                          factor,
                          1e-5});
     }
@@ -60,9 +67,7 @@ std::vector<Extreme> intensities() {
                                      directionalLight("dim", {0, 0, -1}, 1e-12)});
                      },
                      {},
-                     [] {
-                         return lit(directionalLight("key", {0, 0, -1}, 1));
-                     },
+                     one,
                      1e12,
                      1e-5});
     return cases;
@@ -81,6 +86,19 @@ std::vector<Extreme> places() {
         cases.push_back({std::string("point_") + name, [z = z] {
                              return lit(pointLight("bulb", {0, 0, z}, 1));
                          }});
+    // Before a plate that keeps all light off, also off the terminator, where highlights are strongest.
+    cases.push_back({"behind_a_plate",
+                     [] {
+                         SceneBuilder builder;
+                         builder.addObject("body", sphere(), builder.addSkin(SkinMaterial()));
+                         builder.addObject("plate", makePlate(2), builder.addMatte(),
+                                           glm::translate(glm::dmat4(1), {0, 0, -0.2}));
+                         RenderJob job = pictureOf(builder);
+                         job.scene.materials[1].doubleSided = true;
+                         return inLight(job, {directionalLight("behind", {0.1, 0.05, 1}, 10)});
+                     },
+                     Bounds3::atMost(1e-6)});
+    cases.back().leastCosine = -1;
     return cases;
 }
 

@@ -49,7 +49,7 @@ TEST(Sweep, EveryCaseHolds) {
                    {"type": "point", "position": [-0.4, 0.1, 0.3], "intensity": 0.2}]})";
     const ProcessResult run =
         runProcess({CUTIS_PROGRAM, "measure", folder / "scene.glb", "--rig", folder / "test.rig.json",
-                    "--sweep", "stability", "--size", "16x16", "--budget", "0.2s", "--repeats", "1",
+                    "--sweep", "stability", "--size", "16x16", "--error", "3%", "--repeats", "1",
                     "--device", "cpu", "-o", folder / "out"},
                    {{"CUTIS_CACHE_DIR", CUTIS_TEST_CACHE_DIR}}, kTimeout);
     ASSERT_EQ(run.status, 0) << run.err;

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -81,7 +82,8 @@ ProcessResult runProcess(const std::vector<std::string>& arguments, const Enviro
 
     ProcessResult result;
     int state = 0;
-    while (waitpid(child, &state, WNOHANG) == 0) {
+    rusage used{};
+    while (wait4(child, &state, WNOHANG, &used) == 0) {
         if (!result.timedOut && elapsed() > timeoutSeconds) {
             result.timedOut = true;
             kill(-child, SIGKILL);
@@ -89,6 +91,9 @@ ProcessResult runProcess(const std::vector<std::string>& arguments, const Enviro
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     result.seconds = elapsed();
+    const auto secondsOf = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+    result.cpuSeconds = secondsOf(used.ru_utime) + secondsOf(used.ru_stime);
+    result.peakBytes = static_cast<std::uint64_t>(used.ru_maxrss) * 1024;
     result.status = WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
     result.out = readAll(out);
     result.err = readAll(err);

@@ -1,6 +1,7 @@
 // Runs a program as a user would, and keeps what it printed.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -13,6 +14,8 @@ struct ProcessResult {
     bool timedOut = false;  // it ran past the limit and was killed
     std::string out, err;   // all of stdout and stderr
     double seconds = 0;     // wall clock
+    double cpuSeconds = 0;  // of processor time, with the processes that it started and waited for
+    std::uint64_t peakBytes = 0;  // most memory resident in any one of them
 };
 
 using EnvironmentVariables = std::vector<std::pair<std::string, std::string>>;

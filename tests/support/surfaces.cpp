@@ -120,10 +120,11 @@ Primitive makePlate(double size, const glm::dmat2& uvFromPlate) {
     return mesh.finish();
 }
 
-Primitive makeSphere(double radius, SphereMapping mapping, const glm::dmat3& orientation) {
+Primitive makeSphere(double radius, SphereMapping mapping, const glm::dmat3& orientation, double detail) {
     ChartedMesh mesh(0.1 * radius);
+    const int quarter = static_cast<int>(std::lround(48 * detail));
     if (mapping == SphereMapping::latLong) {
-        mesh.addPatch(192, 96, [&](double s, double t) {
+        mesh.addPatch(4 * quarter, 2 * quarter, [&](double s, double t) {
             const double longitude = (s - 0.5) * 2 * kPi, latitude = (0.5 - t) * kPi;  // longitude 0 at +Z
             const glm::dvec3 normal =
                 orientation * glm::dvec3(std::sin(longitude) * std::cos(latitude), std::sin(latitude),
@@ -133,7 +134,7 @@ Primitive makeSphere(double radius, SphereMapping mapping, const glm::dmat3& ori
         return mesh.finish();
     }
     for (int face = 0; face < 6; ++face)
-        mesh.addPatch(48, 48, [&](double s, double t) {
+        mesh.addPatch(quarter, quarter, [&](double s, double t) {
             const glm::dvec3 normal = orientation * cubeDirection(face, s, t);
             return SurfacePoint{normal * radius, normal, glm::dvec2(s, 1 - t) * (kPi / 2 * radius)};
         });

@@ -53,8 +53,9 @@ enum class SphereMapping {
     latLong,  // one chart, poles at ±Y, seam towards -Z
     cube,     // six charts, equiangular
 };
-// A sphere round the origin, its frame turned by `orientation` first (which moves poles and seams only).
-Primitive makeSphere(double radius, SphereMapping mapping, const glm::dmat3& orientation = glm::dmat3(1));
+// A sphere round the origin, its frame turned by `orientation` first (which moves poles and seams only). `detail` multiplies the
+// number of triangles along each way: 192 round it where that is 1.
+Primitive makeSphere(double radius, SphereMapping mapping, const glm::dmat3& orientation = glm::dmat3(1), double detail = 1);
 
 // A sphere-like head with a nose towards +Z, six charts: a body that casts shadows on itself.
 Primitive makeNosedSphere(double radius);

@@ -65,3 +65,24 @@ TEST(ExitScale, isZeroWhereNothingEnters) {
     EXPECT_EQ(transmittedFraction(40, 0.5), 0);
     EXPECT_EQ(exitScale(40, 0.5, 1), 0);
 }
+// ∫ G dA over a sphere from one of its points, by rings of equal area, and over a disc from its centre.
+TEST(GatheredShare, isExactOnSpheresAndDiscs) {
+    const double pi = std::numbers::pi, radius = 50;
+    for (const double variance : {1.0, 100.0, 2500.0, 1e4, 1e7}) {
+        constexpr int kRings = 200000;
+        double onSphere = 0, onDisc = 0;
+        for (int i = 0; i < kRings; ++i) {
+            const double share = (i + 0.5) / kRings;  // of the area, from the point outwards
+            onSphere += std::exp(-4 * radius * radius * share / (2 * variance));
+            onDisc += std::exp(-radius * radius * share / (2 * variance));
+        }
+        const double sphereArea = 4 * pi * radius * radius, discArea = pi * radius * radius;
+        const double unit = 1 / (2 * pi * variance * kRings);
+        EXPECT_NEAR(gatheredShare(variance, sphereArea), onSphere * sphereArea * unit, 1e-5) << variance;
+        EXPECT_NEAR(gatheredShare(variance, discArea), onDisc * discArea * unit, 1e-5) << variance;
+    }
+    // Of skin on a head nothing is lost, and of Gaussians far wider than a body next to nothing kept.
+    EXPECT_EQ(gatheredShare(7.41, 1e5), 1);
+    EXPECT_NEAR(gatheredShare(1e12, 1e5) * 2 * pi * 1e12 / 1e5, 1, 1e-6);
+}
+
