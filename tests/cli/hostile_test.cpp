@@ -160,15 +160,17 @@ std::vector<Hostile> hostiles() {
         {"view_out_of_bounds", glb([](Json& j) { j["bufferViews"][0]["byteLength"] = 1u << 31; }), {"scene.glb", "bufferViews[0]"}},
         {"cyclic_nodes", glb([](Json& j) { j["nodes"] = Json::parse(R"([{"children":[1],"mesh":0},{"children":[0]}])"); }),
          {"scene.glb", "nodes[0]"}},
-        // A mesh of a million triangles in two thousand places.
+        // A mesh of a million vertices in two thousand places.
         {"instances_without_end",
          [](Where folder) {
              GltfFile file = triangleFile();
-             const int indices = file.addAccessor(std::vector<std::uint8_t>(3'000'000, 0), "SCALAR", kUnsignedByte, 3'000'000);
-             for (std::size_t i = 2; i < file.binary.size(); i += 3) file.binary[file.binary.size() - i] = std::byte(i % 3);
-             file.json["meshes"][0]["primitives"][0]["indices"] = indices;
-             const int positions = file.addAccessor(std::vector<float>(3'000'000, 0.1f), "VEC3", kFloat, 1'000'000);
-             file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = positions;
+             std::vector<float> corners;
+             for (int i = 0; i < 999'999; ++i) {
+                 corners.insert(corners.end(), {static_cast<float>(i % 3 == 1), static_cast<float>(i % 3 == 2), 1e-6f * static_cast<float>(i / 3)});
+             }
+             Json& primitive = file.json["meshes"][0]["primitives"][0];
+             primitive.erase("indices");
+             primitive["attributes"]["POSITION"] = file.addAccessor(corners, "VEC3", kFloat, 999'999);
              file.json["nodes"] = Json::array(), file.json["scenes"][0]["nodes"] = Json::array();
              for (int i = 0; i < 2000; ++i) file.json["nodes"].push_back({{"mesh", 0}}), file.json["scenes"][0]["nodes"].push_back(i);
              file.saveGlb(folder);

@@ -115,12 +115,12 @@ Extreme wideFurnace(const std::string& name, const SkinMaterial& skin) {
 }
 
 // One Gaussian (mm²), the sphere lit from its side.
-Extreme sideLit(const std::string& name, double variance) {
+Extreme sideLit(const std::string& name, double variance, double tolerance) {
     const SkinMaterial skin = skinOf(std::vector<double>{variance});
     Extreme extreme{name, [skin] { return inLight(sphereJob(skin), {directionalLight("side", {-1, 0, 0}, std::numbers::pi)}); }};
     const auto exact = std::make_shared<SphereDiffusion>(skin.profile, 100);
     extreme.exact = [exact](const glm::dvec3& normal) { return glm::dvec3((*exact)(normal.x, 0)); };
-    extreme.tolerance = 0.1;
+    extreme.tolerance = tolerance;
     return extreme;
 }
 
@@ -133,9 +133,11 @@ std::vector<Extreme> profiles() {
     }
     // The stiff case: one Gaussian far below a texel, the next wider than the body.
     cases.push_back(wideFurnace("eight_decades", skinOf({1e-4, 1e4})));
-    // Wide ones that nothing leads up to, seen as the light of one side spreads to the other.
-    for (const double variance : {1e2, 1e4, 1e6})
-        cases.push_back(sideLit("side_lit_variance_1e" + std::to_string(std::lround(std::log10(variance))), variance));
+    // Wide ones that nothing leads up to, seen as the light of one side spreads to the other. Far wider than the body light is
+    // even over it; in the atlas poles hold more texels than they have surface, and borders are not crossed all the way.
+    cases.push_back(sideLit("side_lit_variance_1e2", 1e2, 0.01));
+    cases.push_back(sideLit("side_lit_variance_1e4", 1e4, 0.2));
+    cases.push_back(sideLit("side_lit_variance_1e6", 1e6, 0.35));
     cases.push_back(furnace("one_gaussian", skinOf({1.0})));
     cases.push_back(furnace("sixteen_gaussians", skinOf({1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06, 0.1, 0.2, 0.4,
                                                          0.8, 1.6, 3.2, 5, 7, 9, 12})));
