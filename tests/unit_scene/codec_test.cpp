@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <future>
 #include <thread>
@@ -12,6 +13,7 @@
 #include "renderer/core/error.h"
 #include "renderer/scene/codec_client.h"
 #include "renderer/scene/image_io.h"
+#include "renderer/scene/picture.h"
 #include "tests/support/process.h"
 
 namespace cutis {
@@ -102,6 +104,21 @@ TEST(Codec, StartsAgainWhenItWasKilled) {
     std::this_thread::sleep_for(50ms);
     expectWorks(png);
     EXPECT_NE(codecProcess(), codec);
+}
+
+// As on a machine of 200 cores, each of which would have a thread with a stack and a heap of its own.
+TEST(Codec, ManyCoresTakeNoMoreMemory) {
+    ::setenv("OPENIMAGEIO_THREADS", "200", 1);
+    if (const pid_t codec = codecProcess()) ::kill(codec, SIGKILL);
+    std::this_thread::sleep_for(50ms);
+    const test::TemporaryFolder folder;
+    Picture picture{600, 800, 3, std::vector<float>(600 * 800 * 3, 0.5f)};
+    for (std::size_t i = 0; i < picture.values.size(); ++i) picture.values[i] += 1e-3f * static_cast<float>(i % 977);
+    writeExr(folder / "a.exr", picture);
+    EXPECT_EQ(readPicture(folder / "a.exr").width, 600);
+    ::unsetenv("OPENIMAGEIO_THREADS");
+    ::kill(codecProcess(), SIGKILL);  // the next one starts as ever
+    std::this_thread::sleep_for(50ms);
 }
 
 TEST(Codec, ManyThreadsAtOnce) {

@@ -4,6 +4,7 @@
 // It loads OpenImageIO once and answers each request in a process of its own, forked from the loaded one,
 // with limits of memory and time. Its socket is standard input; it ends when cutis does.
 #include <fcntl.h>
+#include <malloc.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
@@ -23,6 +24,8 @@
 namespace cutis::codec {
 namespace {
 
+// Of one image. An arena of the heap reserves 64 MiB of addresses (mallopt(3)), which count as memory taken.
+constexpr int kThreads = 4, kArenas = 2;
 // A decoder may wait for a slow disk, not for ever: so many times the seconds of processor time that it has.
 constexpr unsigned kPatience = 20;
 
@@ -58,6 +61,8 @@ void answer(const Parcel<Request>& parcel) {
         return made.data();
     };
     const SharedBytes given = SharedBytes::adopt(parcel.descriptors[1], request.dataBytes);
+    ::mallopt(M_ARENA_MAX, kArenas);
+    limitThreads(kThreads);
     limitResources(request);
     Reply& message = reply.message;
     std::string why;

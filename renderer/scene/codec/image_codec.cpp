@@ -77,6 +77,11 @@ OIIO::ImageSpec specOf(const PixelLayout& pixels) {
 
 }  // namespace
 
+void limitThreads(int threads) {
+    OIIO::attribute("threads", threads);
+    OIIO::attribute("exr_threads", threads);
+}
+
 std::string decodeMemory(std::span<const std::byte> file, const std::string& format,
                          const PixelLimits& limits, PixelLayout& pixels, const Allocate& allocate) {
     return guarded([&]() -> std::string {

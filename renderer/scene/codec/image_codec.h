@@ -31,6 +31,10 @@ namespace codec {
 // Memory for so many bytes, where the samples shall lie.
 using Allocate = std::function<std::byte*(std::uint64_t bytes)>;
 
+// So many threads for one image, whatever cores there are: each takes a stack and a heap of its own out of what the process may
+// have. Before anything else here.
+void limitThreads(int threads);
+
 // Each returns why it failed, or nothing; none throws. `format` is an OpenImageIO format name ("png").
 std::string decodeMemory(std::span<const std::byte> file, const std::string& format, const PixelLimits&,
                          PixelLayout&, const Allocate&);
