@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/inputs.h"
+#include "app/viewer/autosave.h"
 #include "app/viewer/window.h"
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
@@ -26,10 +27,6 @@ std::string lowercaseExtension(const fs::path& file) {
 }
 
 namespace {
-
-fs::path recoveredFile() {
-    return cacheFolder() / "recovered.rig.json";
-}
 
 // Runs what may throw Error for something that the user gave.
 template <class Function>
@@ -203,7 +200,7 @@ bool saveRigAs(Session& session, const fs::path& file) {
             session.edits.endGesture();
         }
         session.edits.markSaved();
-        discardAutosave();
+        autosave(session);
         session.say("Saved " + whole.string());
     });
     if (saved && after) {
@@ -219,6 +216,7 @@ bool saveSkinAs(Session& session, const fs::path& file) {
         if (!session.geometry) throw Error("cannot save skin", "there is no scene yet", file.string());
         writeFileAtomically(file, skinFileText(session.document().skin, *session.geometry));
         session.savedSkin = session.document().skin;
+        autosave(session);
         rememberFile(session, file);
         session.say("Saved " + file.string());
     });
@@ -256,46 +254,6 @@ void showDialog(Session& session, Dialog dialog, const std::string& path) {
     session.dialog = dialog;
     session.dialogOpens = true;
     session.dialogPath = path;
-}
-
-fs::path autosaveFile() {
-    const fs::path folder = cacheFolder();
-    return folder.empty() ? fs::path() : folder / "autosave.rig.json";
-}
-
-void autosave(Session& session) {
-    const fs::path file = autosaveFile();
-    if (file.empty() || !session.edits.unsaved()) return;
-    try {
-        cutis::saveRig(session.document().rig, file);
-    } catch (const Error&) {  // a full disk must not disturb the work: saving by hand says what is wrong
-    }
-}
-
-void discardAutosave() {
-    std::error_code error;
-    if (const fs::path file = autosaveFile(); !file.empty()) fs::remove(file, error);
-}
-
-bool keepAutosave() {
-    std::error_code error;
-    if (const fs::path file = autosaveFile(); !file.empty() && fs::is_regular_file(file, error))
-        fs::rename(file, recoveredFile(), error);
-    return !autosaveFile().empty() && fs::is_regular_file(recoveredFile(), error);
-}
-
-void recoverRig(Session& session) {
-    attempt(session, [&] {
-        const Rig rig = loadRig(recoveredFile());
-        session.edits.endGesture();
-        session.edits.apply("Recover rig",
-                            [&](Document& document) { replaceRig(document, rig, document.rigFile); });
-        session.recoverable = false;
-        autosave(session);  // before its only copy goes
-        std::error_code error;
-        fs::remove(recoveredFile(), error);
-        session.say("Recovered the rig that was not saved");
-    });
 }
 
 }  // namespace cutis::app

@@ -54,13 +54,4 @@ void showDialog(Session& session, Dialog dialog, const std::string& path = "");
 void rememberFile(Session& session, const std::filesystem::path& file);
 std::vector<std::filesystem::path> loadRecentFiles();
 
-// The rig that is not saved, kept in the cache folder in case this program ends badly.
-std::filesystem::path autosaveFile();
-void autosave(Session& session);
-void discardAutosave();
-// At the start: puts aside what the last run left, so that this one does not write over it. True when there
-// is something to recover.
-bool keepAutosave();
-void recoverRig(Session& session);
-
 }  // namespace cutis::app

@@ -4,7 +4,9 @@
 #include <exception>
 #include <utility>
 
+#include "app/output_folder.h"
 #include "app/viewer/overlay.h"
+#include "app/viewer/window.h"
 #include "renderer/core/error.h"
 #include "renderer/measure/comparison.h"
 
@@ -28,6 +30,12 @@ void showDifference(Session& session) {
                                                          : showMap(session.figures->flipMap, kWholeFlip));
 }
 
+// What A is compared with: B, else the current state.
+const Document& otherDocument(const Session& session) {
+    const StoredState& b = session.compared[1];
+    return b.stored ? b.document : session.document();
+}
+
 ComparedFigures compare(std::shared_ptr<const Picture> a, std::shared_ptr<const Picture> b, double exposureA,
                         double exposureB) {
     ComparedFigures figures;
@@ -47,6 +55,15 @@ ComparedFigures compare(std::shared_ptr<const Picture> a, std::shared_ptr<const 
     return figures;
 }
 
+// Its lights that are solo come first: two states of one rig differ by them.
+std::string nameOf(const Document& document) {
+    std::string name;
+    for (std::size_t i = 0; i < document.solo.size(); ++i)
+        if (document.solo[i]) name += (name.empty() ? "" : " + ") + document.rig.lights[i].name;
+    const std::string rig = document.rig.name.empty() ? "Rig" : document.rig.name;
+    return name.empty() ? rig : name + " of " + rig;
+}
+
 }  // namespace
 
 void storeState(Session& session, std::size_t slot, const std::string& name, const Document& document) {
@@ -63,8 +80,7 @@ void storeState(Session& session, std::size_t slot, const std::string& name, con
 
 void storeCurrent(Session& session, std::size_t slot) {
     if (!session.geometry) return;
-    const std::string& name = session.document().rig.name;
-    storeState(session, slot, name.empty() ? "Rig" : name, session.document());
+    storeState(session, slot, nameOf(session.document()), session.document());
     session.say(slot == 0 ? "Stored as A" : "Stored as B");
 }
 
@@ -122,9 +138,39 @@ void updateDifference(Session& session) {
     const std::shared_ptr<const Picture> a = session.compared[0].linear, b = comparedWith(session);
     if (session.compareMode != CompareMode::difference || !a || !b) return;
     if (session.figures && session.figures->a == a.get() && session.figures->b == b.get()) return;
-    const Document& other = session.compared[1].stored ? session.compared[1].document : session.document();
-    session.comparing = std::async(std::launch::async, compare, a, b,
-                                   session.compared[0].document.rig.exposure, other.rig.exposure);
+    session.comparing =
+        std::async(std::launch::async, compare, a, b, session.compared[0].document.rig.exposure,
+                   otherDocument(session).rig.exposure);
+}
+
+void saveComparison(Session& session, const std::filesystem::path& folder) {
+    if (!session.compared[0].stored)
+        return session.complain("Store a state as A first: it is what is compared");
+    session.savingComparison = std::filesystem::absolute(folder).lexically_normal();
+    session.say("Saves the comparison when both of its pictures are there");
+    continueComparison(session);
+}
+
+void continueComparison(Session& session) {
+    const std::shared_ptr<const Picture> a = session.compared[0].linear, b = comparedWith(session);
+    if (session.savingComparison.empty() || session.writing.valid() || !a || !b) return;
+    const StoredState& first = session.compared[0];
+    const std::string other = session.compared[1].stored ? session.compared[1].name : "now";
+    std::vector<ComparedPicture> pictures = {{"A " + first.name, *a, first.document.rig.exposure},
+                                             {"B " + other, *b, otherDocument(session).rig.exposure}};
+    session.writing = std::async(
+        std::launch::async, [folder = std::exchange(session.savingComparison, {}),
+                             title = first.name + " and " + other, pictures = std::move(pictures)] {
+            SaidOfSaving said{"The comparison is saved: " + (folder / "index.html").string(), false};
+            try {
+                prepareOutputFolder(folder, "compare.json");
+                writeComparison(folder, title, pictures);
+            } catch (const std::exception& problem) {
+                said = {problem.what(), true};
+            }
+            Window::wake();
+            return said;
+        });
 }
 
 }  // namespace cutis::app

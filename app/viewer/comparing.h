@@ -5,8 +5,7 @@
 
 namespace cutis::app {
 
-// What is white in the two maps of the difference: one of the mean light, a perceived one of a half.
-inline constexpr double kWholeDifference = 1, kWholeFlip = 0.5;
+// kWholeDifference and kWholeFlip in words.
 inline constexpr const char *kWholeDifferenceText = "the mean light", *kWholeFlipText = "0.5";
 
 // Puts the document aside as A (slot 0) or B (slot 1); its full picture is rendered beside the view unless it
@@ -24,6 +23,12 @@ void renewStates(Session& session);
 void takeStatePicture(Session& session, AsideResult result);
 // While the difference is shown: computes it, in the background, when what is compared has changed.
 void updateDifference(Session& session);
+
+// What `cutis compare` writes, of A and what it is compared with, into a folder that is new or holds such a
+// report; once both pictures are there, in the background. The session says what came of it.
+void saveComparison(Session& session, const std::filesystem::path& folder);
+// Begins to write it once they are.
+void continueComparison(Session& session);
 
 // The picture that A is compared with: B's, else the current full one; null until it is there.
 std::shared_ptr<const Picture> comparedWith(const Session& session);

@@ -38,8 +38,8 @@ void FrameTimes::addFrame(double seconds, bool turning, bool loading) {
     if (turning) turningFrames_.push_back(seconds);
 }
 
-void FrameTimes::addEdit(std::uint64_t version, bool ofView) {
-    edit_ = Edit{version, ofView, Clock::now(), false};
+void FrameTimes::addEdit(std::uint64_t version, bool ofView, bool busy) {
+    edit_ = Edit{version, ofView, busy, Clock::now(), false};
 }
 
 void FrameTimes::addPicture(const WorkerResult& picture, bool turning) {
@@ -49,7 +49,10 @@ void FrameTimes::addPicture(const WorkerResult& picture, bool turning) {
     lastPicture_ = turning ? std::optional(now) : std::nullopt;
     if (!edit_ || edit_->ofView || picture.version != edit_->version) return;
     const double since = std::chrono::duration<double>(now - edit_->at).count();
-    if (!edit_->shown) firstPictures_.push_back(since);
+    if (!edit_->shown) {
+        firstPictures_.push_back(since);
+        if (edit_->busy) busyFirstPictures_.push_back(since);
+    }
     edit_->shown = true;
     if (!picture.full) return;
     fullPictures_.push_back(since);
@@ -63,6 +66,7 @@ void FrameTimes::write(const std::filesystem::path& file) const {
                                       {"frame_while_orbiting", summary(turningFrames_)},
                                       {"between_pictures_while_orbiting", summary(turningPictures_)},
                                       {"edit_to_first_picture", summary(firstPictures_)},
+                                      {"edit_while_rendering_to_first_picture", summary(busyFirstPictures_)},
                                       {"edit_to_full_picture", summary(fullPictures_)}};
     writeFileAtomically(file, json.dump(2) + '\n');
 }

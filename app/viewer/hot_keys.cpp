@@ -57,6 +57,8 @@ constexpr HotKey kHotKeys[] = {
      [](Session& s) { showDialog(s, Dialog::open); }},
     {GLFW_KEY_P, kCtrl, "Ctrl+P", "Save the picture",
      [](Session& s) { showDialog(s, Dialog::savePicture, "picture.png"); }},
+    {GLFW_KEY_E, kCtrl, "Ctrl+E", "Save the comparison of A and B",
+     [](Session& s) { showDialog(s, Dialog::saveComparison, "comparison"); }},
     {GLFW_KEY_C, kCtrl | kShift, "Ctrl+Shift+C", "Copy the command line of this picture", copyCommandLine},
     {GLFW_KEY_Q, kCtrl, "Ctrl+Q", "Quit", quit},
     {GLFW_KEY_S, 0, "S", "Solo the chosen light", toggleSolo},

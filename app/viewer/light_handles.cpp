@@ -69,7 +69,9 @@ void addBeam(const Session& session, const Camera& camera, std::vector<LightHand
     const ImVec2 aim = onScreen(session, seen);
     const float pixel = static_cast<float>(session.uiScale);
     if (light.type == LightType::spot) {
-        const std::vector<ImVec2> ring = coneRing(session, camera, light, beam);
+        // The point farthest to the right of those in the view.
+        std::vector<ImVec2> ring = coneRing(session, camera, light, beam);
+        std::erase_if(ring, [&](const ImVec2& p) { return !session.view.contains(p.x, p.y); });
         const auto rightmost = std::max_element(ring.begin(), ring.end(),
                                                 [](const ImVec2& a, const ImVec2& b) { return a.x < b.x; });
         // Where a cone is seen as a point, there is nothing to take hold of.

@@ -16,8 +16,9 @@ constexpr int kReduction = 2;
 bool sameView(const Session& session) {
     const MixerStrip& mixer = session.mixer;
     const Document& document = session.document();
-    return mixer.scene == session.scene && mixer.view == document.view && mixer.skin == document.skin && mixer.pose == session.posed &&
-           mixer.width == session.view.width && mixer.height == session.view.height;
+    return mixer.scene == session.scene && mixer.view == document.view && mixer.skin == document.skin &&
+           mixer.pose == session.posed && mixer.width == session.view.width &&
+           mixer.height == session.view.height;
 }
 
 // Light that no light gives is in every light's own picture: the sum would hold it several times.
@@ -78,7 +79,8 @@ void updateMixer(Session& session) {
         session.say("The mixer cannot add up a scene that glows by itself");
         return;
     }
-    if (session.complete() && !(sameView(session) && canMix(mixer.contributions, session.document()))) renew(session);
+    if (session.complete() && !(sameView(session) && canMix(mixer.contributions, session.document())))
+        renew(session);
     if (!mixShows(session) || mixer.mixedVersion == session.shownVersion()) return;
     mixer.mixedVersion = session.shownVersion();
     session.uploads.emplace_back(kMixPicture, toDisplay(mix(mixer.contributions, session.document()),

@@ -97,19 +97,6 @@ DisplayPicture showInspected(const Inspect& inspect, const Picture& values, floa
 
 }  // namespace
 
-glm::vec3 heatColor(float value) {
-    static constexpr float kStops[][3] = {{0, 0, 0},      {70, 10, 90},   {180, 30, 60},
-                                          {240, 120, 10}, {255, 220, 80}, {255, 255, 255}};
-    constexpr int kSteps = static_cast<int>(std::size(kStops)) - 1;
-    const float place = std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) * kSteps : kSteps;
-    const int step = std::min(static_cast<int>(place), kSteps - 1);
-    const float part = place - static_cast<float>(step);
-    glm::vec3 color;
-    for (int c = 0; c < 3; ++c)
-        color[c] = (kStops[step][c] + part * (kStops[step + 1][c] - kStops[step][c])) / 255;
-    return color;
-}
-
 std::span<const Overlay> overlays() {
     return kOverlays;
 }

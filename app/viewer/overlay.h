@@ -7,6 +7,7 @@
 
 #include "app/viewer/display_picture.h"
 #include "renderer/frame/renderer.h"
+#include "renderer/measure/maps.h"
 
 namespace cutis::app {
 
@@ -20,10 +21,6 @@ struct Overlay {
     const char* white = "";
 };
 
-// Black (0) through purple, red and yellow to white (1 and more, or what is not finite): as the maps of `cutis
-// compare`. Code values.
-glm::vec3 heatColor(float value);
-
 // All that can be shown, the picture first.
 std::span<const Overlay> overlays();
 
@@ -36,7 +33,7 @@ struct Shown {
 
 // The AOV as the overlay shows it. Light is exposed and tone mapped as the picture is.
 DisplayPicture showAov(const Shown& shown, const Picture& values, double exposure);
-// A one-channel picture from black (0) through purple, red and yellow to white (`whole` and beyond).
+// A one-channel picture in the colours of the maps of `cutis compare`, white at `whole`.
 DisplayPicture showMap(const Picture& map, double whole);
 
 }  // namespace cutis::app

@@ -94,6 +94,7 @@ void RenderWorker::end() {
         const std::lock_guard lock(mutex_);
         ended_ = true;
     }
+    shadows_.stop();
     changed_.notify_all();
 }
 
@@ -108,6 +109,7 @@ void RenderWorker::show(std::uint64_t version, RenderState state) {
         const std::lock_guard lock(mutex_);
         next_ = Job{version, std::move(state)};
     }
+    shadows_.stop();  // they are of the state before, and take their share of the machine
     changed_.notify_all();
 }
 
@@ -120,6 +122,17 @@ void RenderWorker::renderAside(AsideJob job) {
         aside_.insert(place, std::move(job));
     }
     changed_.notify_all();
+}
+
+// Unless a newer one has taken its place.
+void RenderWorker::askAgain(AsideJob job) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (std::any_of(aside_.begin(), aside_.end(),
+                        [&](const AsideJob& other) { return other.id == job.id; }))
+            return;
+    }
+    renderAside(std::move(job));
 }
 
 void RenderWorker::forgetAside(int first, int last) {
@@ -160,6 +173,13 @@ bool RenderWorker::stale() const {
     return ended_ || next_.has_value();
 }
 
+// For a picture that takes about so long; negative: unknown. One that is there at once is not worth
+// interrupting.
+StopAsked RenderWorker::whenStale(double seconds) const {
+    if (seconds >= 0 && seconds <= kInstant) return {};
+    return [this] { return stale(); };
+}
+
 void RenderWorker::run() {
     for (;;) {
         std::optional<Job> job;
@@ -190,13 +210,16 @@ void RenderWorker::run() {
             } else if (canRefine()) {  // unless a restart has ended it
                 refineOnce();
             }
+        } catch (const Interrupted&) {
+            // What it was for comes again when it is still wanted: pictures beside the view, once that rests.
+            if (aside) askAgain(std::move(*aside));
+            aside.reset();
         } catch (const std::bad_alloc&) {
             error = "out of memory: the scene or the picture is too large for this machine";
         } catch (const std::exception& problem) {
             error = problem.what();
             refinement_.reset();
-            // Nothing more comes from a lost device: the next picture opens one anew.
-            if (error.find("device was lost") != std::string::npos) renderers_ = {};
+            if (error.find("device was lost") != std::string::npos) recoverDevice(std::move(job));
         }
         {
             const std::lock_guard lock(mutex_);
@@ -208,6 +231,15 @@ void RenderWorker::run() {
         wake_();
     }
     closeRenderers();  // a device goes on the thread that it lived on
+}
+
+// Nothing more comes from a lost device: the next picture opens one anew. The picture that lost it is tried
+// once more.
+void RenderWorker::recoverDevice(std::optional<Job> job) {
+    closeRenderers();
+    const std::lock_guard lock(mutex_);
+    ++status_.devicesLost;
+    if (job && !next_ && !std::exchange(triesAgain_, true)) next_ = std::move(job);
 }
 
 void RenderWorker::closeRenderers() {
@@ -236,15 +268,16 @@ void RenderWorker::show(const Job& job) {
     putPose(job.state);
     const bool onlyMoved = moved(job);
     const double first = firstFraction(job);
+    const StopAsked stopAsked = whenStale(onlyMoved ? moveSeconds_ : changeSeconds_);
     if (first < 1) {
-        publish(render(job, first, !onlyMoved));
+        publish(render(job, first, !onlyMoved, {}));
         if (stale()) return;
     }
     if (first < 0.25) {
-        publish(render(job, 2 * first, !onlyMoved));
+        publish(render(job, 2 * first, !onlyMoved, stopAsked));
         if (stale()) return;
     }
-    WorkerResult result = render(job, 1, false);
+    WorkerResult result = render(job, 1, false, first < 1 ? stopAsked : StopAsked());
     (onlyMoved ? moveSeconds_ : changeSeconds_) = result.seconds;
     shown_ = job;
     showFull(std::move(result));
@@ -288,7 +321,7 @@ void RenderWorker::refineOnce() {
     if (refinement_->next() == Refinement::Step::pixels) {
         job.state.camera =
             jittered(job.state.camera, refinement_->pixelPictures(), job.state.settings.height);
-        refinement_->add(*render(job, 1, false).composed);
+        refinement_->add(*render(job, 1, false, whenStale(moveSeconds_)).composed);
     } else if (std::optional<ShadowPicture> more = shadows_.take()) {
         if (more->version != job.version) return;  // of a state that is no more
         const auto linear = std::make_shared<const Picture>(std::move(more->picture));
@@ -297,6 +330,7 @@ void RenderWorker::refineOnce() {
         job.state.settings.seed = static_cast<std::uint32_t>(refinement_->shadowPictures());
         shadows_.start(job.version, inputOf(job.state), job.state.settings, job.state.scene,
                        renderers_.openShadows);
+        if (stale()) shadows_.stop();  // it may have been told to before it began
         return;
     }
     WorkerResult result = full_;
@@ -331,14 +365,16 @@ void RenderWorker::publish(WorkerResult result) {
         status_.busy = false;
         if (restarts_) return;  // made with shaders that are no more: says nothing of the new ones
         status_.error.clear();
+        triesAgain_ = false;
         status_.device = result.stats.device;
         result_ = std::move(result);
     }
     wake_();
 }
 
-WorkerResult RenderWorker::render(const Job& job, double fraction, bool draft) {
+WorkerResult RenderWorker::render(const Job& job, double fraction, bool draft, StopAsked stopAsked) {
     RenderSettings settings = job.state.settings;
+    settings.stopAsked = std::move(stopAsked);
     settings.width = std::max(1, static_cast<int>(std::lround(settings.width * fraction)));
     settings.height = std::max(1, static_cast<int>(std::lround(settings.height * fraction)));
     settings.inspect = job.state.overlay.inspect;
@@ -368,7 +404,9 @@ WorkerResult RenderWorker::render(const Job& job, double fraction, bool draft) {
 void RenderWorker::renderNextAside(const AsideJob& job) {
     putSkin(job.state);
     putPose(job.state);
-    RenderResult rendered = draw(renderers_.draft, job.state, job.state.settings);
+    RenderSettings settings = job.state.settings;
+    settings.stopAsked = whenStale(changeSeconds_);
+    RenderResult rendered = draw(renderers_.draft, job.state, settings);
     AsideResult result{
         job.id, std::make_shared<const Picture>(std::move(rendered.picture)), {}, std::move(rendered.aovs)};
     result.display = toDisplay(*overBackground(job.state, result.linear), job.state.rig.exposure);

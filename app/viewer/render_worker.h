@@ -28,8 +28,8 @@ namespace cutis::app {
 struct RenderState {
     std::shared_ptr<Scene> scene;  // with texels; the worker alone touches it once it has been handed over
     std::vector<std::optional<SkinMaterial>> skin;  // per material, put into the scene before rendering
-    Pose pose;  // the scene is put into it before rendering
-    Rig rig;    // placements resolved, solo and mute applied
+    Pose pose;                                      // the scene is put into it before rendering
+    Rig rig;                                        // placements resolved, solo and mute applied
     Camera camera;
     RenderSettings settings;  // width and height of the full picture
     Shown overlay;            // no AOV: the picture
@@ -72,6 +72,7 @@ struct WorkerStatus {
     std::size_t aside = 0;      // pictures beside the view that are still to come
     std::string device;         // empty until the first picture
     std::string error;          // why the last state could not be rendered; empty: it could
+    int devicesLost = 0;        // and opened anew, since the start
 };
 
 // What renders the view, and what renders drafts of it and pictures beside it: apart, so that each keeps what
@@ -95,6 +96,8 @@ class RenderWorker {
     // Replaces whatever was asked for before. Where full pictures have taken longer than kInstant, a smaller
     // one comes first: after a move of the camera so small that it takes about kPreview, lit as the full one;
     // after any other change a draft, coarsely lit. When nothing newer arrives, more full ones are averaged.
+    // The first picture is finished whatever comes, so that a slider that is dragged shows something; all
+    // others are interrupted.
     void show(std::uint64_t version, RenderState state);
     void renderAside(AsideJob job);
     // Forgets jobs with an id in [first, last) that have not begun.
@@ -124,16 +127,19 @@ class RenderWorker {
     bool showAgain(const Job& job);
     void showFull(WorkerResult result);
     bool canRefine() const;
+    void recoverDevice(std::optional<Job> job);
     void closeRenderers();
     void refineOnce();
     void putSkin(const RenderState& state);
     void putPose(const RenderState& state);
     void renderNextAside(const AsideJob& job);
+    void askAgain(AsideJob job);
     void publish(WorkerResult result);
     bool stale() const;
+    StopAsked whenStale(double seconds) const;
     bool moved(const Job& job) const;
     double firstFraction(const Job& job) const;
-    WorkerResult render(const Job& job, double fraction, bool draft);
+    WorkerResult render(const Job& job, double fraction, bool draft, StopAsked stopAsked);
     RenderResult draw(const RenderFunction& renderer, const RenderState& state,
                       const RenderSettings& settings);
     RenderInput inputOf(const RenderState& state);
@@ -153,6 +159,7 @@ class RenderWorker {
     WorkerStatus status_;
     Clock::time_point begun_;
     bool ended_ = false, restarts_ = false;
+    bool triesAgain_ = false;  // after a device was lost
 
     // The worker's own.
     Renderers renderers_;

@@ -13,24 +13,23 @@ namespace {
 
 using Aovs = std::map<std::string, Picture>;
 
-// What went wrong; empty: nothing.
-std::string write(const fs::path& file, const Picture& picture, const Aovs& aovs, double exposure) {
+SaidOfSaving write(const fs::path& file, const Picture& picture, const Aovs& aovs, double exposure) {
     try {
         writePicture(file, picture, exposure);
         for (const auto& [name, values] : aovs) writeExr(aovFile(file, name), values);
     } catch (const std::exception& error) {
-        return error.what();
+        return {error.what(), true};
     }
-    return {};
+    return {"The picture is saved: " + file.string(), false};
 }
 
 void startWriting(Session& session, Aovs aovs) {
     SavedPicture& saved = session.saving;
     session.writing =
         std::async(std::launch::async, [saved = std::exchange(saved, {}), aovs = std::move(aovs)] {
-            std::string problem = write(saved.file, *saved.picture, aovs, saved.exposure);
+            SaidOfSaving said = write(saved.file, *saved.picture, aovs, saved.exposure);
             Window::wake();
-            return problem;
+            return said;
         });
 }
 
@@ -62,8 +61,8 @@ void savePicture(Session& session, const fs::path& file) {
 void continueSaving(Session& session) {
     using namespace std::chrono_literals;
     if (session.writing.valid() && session.writing.wait_for(0s) == std::future_status::ready) {
-        const std::string problem = session.writing.get();
-        problem.empty() ? session.say("The picture is saved") : session.complain(problem);
+        const SaidOfSaving said = session.writing.get();
+        said.failed ? session.complain(said.text) : session.say(said.text);
     }
     SavedPicture& saving = session.saving;
     if (saving.file.empty() || saving.picture || session.writing.valid() || !session.complete()) return;

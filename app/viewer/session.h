@@ -69,7 +69,13 @@ struct SavedPicture {
     double exposure = 0;
 };
 
-enum class Dialog { none, open, saveRig, saveSkin, savePicture, unsaved };
+// What a file on its way to disk ends with.
+struct SaidOfSaving {
+    std::string text;
+    bool failed = false;
+};
+
+enum class Dialog { none, open, saveRig, saveSkin, savePicture, saveComparison, unsaved };
 
 struct Session {
     Request request;  // options of the command line
@@ -131,13 +137,14 @@ struct Session {
     std::string message;  // of the last action
     bool messageIsError = false;
     SavedPicture saving;
+    std::filesystem::path savingComparison;  // a folder, until both pictures are there; empty: none
     bool saveAovs = false;  // pictures are saved with their data channels
     // Something that takes longer than a frame: what it gives is run on the session once it is there.
     std::future<std::function<void(Session&)>> task;
-    std::future<std::string> writing;     // the picture on its way to disk; gives what to say
+    std::future<SaidOfSaving> writing;    // a picture or a comparison on its way to disk
     std::string clipboard;                // what to put there; empty: nothing
     std::optional<Request> opening;       // a scene to load
-    bool recoverable = false;             // a rig was left unsaved last time
+    bool recoverable = false;             // something was left unsaved last time
     bool reloadShaders = false;           // in the next frame
     bool quit = false;
 

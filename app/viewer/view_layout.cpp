@@ -40,16 +40,18 @@ Layout layOut(Session& session, float width, float height, float menuBar, float 
     Layout layout;
     layout.top = menuBar;
     layout.bottom = statusBar;
-    // In a window that is too narrow for both, the picture is worth more.
-    const bool fits = width > 2.5f * kPanelWidth * scale;
-    layout.side = session.showPanels && fits ? std::round(kPanelWidth * scale) : 0;
+    // In a window that is too narrow for panels, the picture is worth more.
+    const float panels = width / (kPanelWidth * scale);
+    layout.side = session.showPanels && panels > 1.6f ? std::round(kPanelWidth * scale) : 0;
+    layout.both = layout.side > 0 && panels > 2.5f;
+    const float sides = layout.side * (layout.both ? 2 : 1);
     const int bar = static_cast<int>(ImGui::GetFrameHeight() + 6 * scale);
     const bool timed = session.showTimeLine && !session.playback.empty();
     const int timeLine = timed ? static_cast<int>(ImGui::GetFrameHeight() + 8 * scale) : 0;
     const int mixer = session.mixer.shown ? static_cast<int>(kMixerHeight * scale) : 0;
     PixelRect& room = session.room;
     room.x = static_cast<int>(layout.side);
-    room.width = static_cast<int>(width - 2 * layout.side);
+    room.width = static_cast<int>(width - sides);
     layout.bar = {room.x, static_cast<int>(menuBar), room.width, bar};
     room.y = layout.bar.y + bar;
     room.height = static_cast<int>(height - statusBar) - room.y - mixer - timeLine;

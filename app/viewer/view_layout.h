@@ -6,7 +6,8 @@
 namespace cutis::app {
 
 struct Layout {
-    float side = 0;        // width of the panels on the left and on the right
+    float side = 0;        // width of the panels on the left and on the right; 0: hidden
+    bool both = false;     // there is room for both; else all tabs are on the left
     float top = 0;         // below the menu bar
     float bottom = 0;      // above the status bar
     PixelRect bar, timeLine, mixer;  // above the picture, and below it; empty: not shown

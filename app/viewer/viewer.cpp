@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/viewer/actions.h"
+#include "app/viewer/autosave.h"
 #include "app/viewer/comparing.h"
 #include "app/viewer/frame_times.h"
 #include "app/viewer/hot_keys.h"
@@ -74,7 +75,7 @@ class Viewer {
         session_.recent = loadRecentFiles();
         session_.recoverable = keepAutosave();
         if (session_.recoverable)
-            session_.say("A rig that was not saved is kept: File, Recover rig brings it back");
+            session_.say("What was not saved is kept: File, Recover unsaved brings it back");
         startLoading(request);
     }
 
@@ -160,7 +161,7 @@ class Viewer {
         if (std::optional<LoadedScene> loaded = loader_.take()) takeScene(std::move(*loaded));
         session_.loading = loader_.loading() ? loader_.name() : "";
         session_.loadingSeconds = loader_.loading() ? loader_.seconds() : 0;
-        session_.worker = worker_.status();
+        takeWorkerStatus();
         if (std::optional<WorkerResult> result = worker_.takeResult()) {
             times_.addPicture(*result, turning());
             session_.uploads.emplace_back(kLivePicture, std::move(result->display));
@@ -174,11 +175,20 @@ class Viewer {
         updateDifference(session_);
         continueTask(session_);
         continueSaving(session_);
+        continueComparison(session_);
         for (const auto& [number, picture] : std::exchange(session_.uploads, {})) {
             window_.setPicture(number, picture);
             session_.pictures.insert(number);
         }
         for (AsideJob& job : std::exchange(session_.asideJobs, {})) worker_.renderAside(std::move(job));
+    }
+
+    void takeWorkerStatus() {
+        const WorkerStatus before = std::exchange(session_.worker, worker_.status());
+        const WorkerStatus& now = session_.worker;
+        if (!now.error.empty() && now.error != before.error) session_.complain(now.error);
+        if (now.devicesLost > before.devicesLost && now.error.empty())
+            session_.complain("The device was lost, and is opened anew");
     }
 
     void takeShaders() {
@@ -313,8 +323,12 @@ class Viewer {
             if (layout.timeLine.height > 0) drawTimeLine(session_, layout.timeLine);
             if (session_.mixer.shown) drawMixerStrip(session_, layout.mixer);
             if (layout.side > 0) {
-                drawSide("##rig", 0, layout, [this] { drawLeft(); });
-                drawSide("##look", io.DisplaySize.x - layout.side, layout, [this] { drawRight(); });
+                drawSide("##rig", 0, layout, [&] {
+                    drawRigTabs();
+                    if (!layout.both) drawLookTabs();
+                });
+                if (layout.both)
+                    drawSide("##look", io.DisplaySize.x - layout.side, layout, [this] { drawLookTabs(); });
             }
         }
         drawStatusBar(session_, bottom);
@@ -337,7 +351,10 @@ class Viewer {
                      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                          ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                          ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoBackground);
-        draw();
+        if (ImGui::BeginTabBar(name, ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip)) {
+            draw();
+            ImGui::EndTabBar();
+        }
         ImGui::End();
     }
 
@@ -350,18 +367,15 @@ class Viewer {
         ImGui::EndTabItem();
     }
 
-    void drawLeft() {
-        if (!ImGui::BeginTabBar("rig")) return;
+    void drawRigTabs() {
         drawTab("Rig", [this] {
             drawRigPanel(session_);
             drawLightPanel(session_);
         });
         drawTab("Presets", [this] { drawPresetPanel(session_); });
-        ImGui::EndTabBar();
     }
 
-    void drawRight() {
-        if (!ImGui::BeginTabBar("look")) return;
+    void drawLookTabs() {
         drawTab("View", [this] { drawCameraPanel(session_); });
         drawTab("HDRI", [this] {
             environmentThumbnails_.start();
@@ -370,7 +384,6 @@ class Viewer {
         drawTab("Skin", [this] { drawSkinPanel(session_); });
         drawTab("Compare", [this] { drawComparePanel(session_); });
         drawTab("Plan", [this] { drawPlanPanel(session_); });
-        ImGui::EndTabBar();
     }
 
     void drawLoading() {
@@ -402,7 +415,7 @@ class Viewer {
         if (key.version != seenVersion_) {
             changed_ = Clock::now();
             const bool lit = session_.edits.version() != editVersion_ && !turning();
-            times_.addEdit(key.version, !lit);
+            times_.addEdit(key.version, !lit, session_.worker.busy);
             editVersion_ = session_.edits.version();
         }
         seenVersion_ = key.version;

@@ -20,6 +20,8 @@ class ChangedGroups {
     std::vector<bool> find(const FrameContext& frame, const InputHashes& inputs);
     // That frame was drawn.
     void note() { drawn_ = asked_; }
+    // Some of it was.
+    void forget() { drawn_ = {}; }
 
   private:
     struct State {

@@ -73,6 +73,7 @@ struct Renderer::State {
     void prepare(const Plan& plan, const std::vector<RowDecision>& decisions);
     std::vector<gpu::PassTiming> drawFrame(const Plan& plan, const std::vector<RowDecision>& decisions,
                                            Readbacks& readbacks);
+    void forgetFrom(const Plan& plan, const std::vector<RowDecision>& decisions, std::size_t row);
     PassStats statsOf(const PassRow& row, const std::string& why, bool ran) const;
 };
 
@@ -169,16 +170,23 @@ std::vector<gpu::PassTiming> Renderer::State::drawFrame(const Plan& plan, const 
                                                         Readbacks& readbacks) {
     readbacks = {};
     gpu::Commands commands = frame.device->begin();
+    commands.stopWhen(frame.settings->stopAsked);
     frame.commands = &commands;
     bool lit = false;
     for (std::size_t i = 0; i < plan.rows.size(); ++i) {
         const PassRow& row = *plan.rows[i];
         if (row.phase != Phase::frame || !decisions[i].run) continue;
         commands.beginPass(row.name);
-        record(row, decisions[i].changes);
+        try {
+            record(row, decisions[i].changes);
+        } catch (const Interrupted&) {
+            forgetFrom(plan, decisions, i);
+            throw;
+        }
         commands.endPass();
         lit |= row.need == Need::litSkin;
     }
+    commands.stopWhen({});
     readbacks = recordReadbacks(frame, lit);
     {
         const TimeSpan span("frame");
@@ -186,6 +194,24 @@ std::vector<gpu::PassTiming> Renderer::State::drawFrame(const Plan& plan, const 
     }
     frame.commands = nullptr;
     return commands.timings();
+}
+
+// The frame was interrupted within that row: rows above hold what this picture needs; of that one and those below, what was
+// to be drawn anew is gone.
+void Renderer::State::forgetFrom(const Plan& plan, const std::vector<RowDecision>& decisions, std::size_t row) {
+    kept.note(plan, frame.needs, hashInputs(frame));
+    for (std::size_t i = row; i < plan.rows.size(); ++i) {
+        const PassRow& left = *plan.rows[i];
+        if (left.phase != Phase::frame || !decisions[i].run) continue;
+        if (left.forget) left.forget(frame);
+        bytes.erase(&left);
+        kept.forgetRow(&left);
+    }
+    changedGroups.forget();  // rows above may have drawn some groups alone
+    frame.changes = nullptr;
+    frame.commands = nullptr;
+    frame.input = nullptr;
+    frame.settings = nullptr;
 }
 
 PassStats Renderer::State::statsOf(const PassRow& row, const std::string& why, bool ran) const {
@@ -311,6 +337,8 @@ RenderResult Renderer::render(const RenderInput& input, const RenderSettings& se
     if (!state_) state_ = makeState();
     try {
         return state_->render(input, settings);
+    } catch (const Interrupted&) {
+        throw;
     } catch (...) {
         forget();
         throw;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/core/interrupted.h"
 #include "renderer/scene/picture.h"
 #include "renderer/scene/scene.h"
 
@@ -55,6 +56,9 @@ struct RenderSettings {
     std::uint32_t seed = 0;         // other samples of area lights and of the sky; means over seeds converge
     std::vector<std::string> aovs;  // of kAovNames
     Inspect inspect = {};
+    // Asked after each command of the frame, which is then run by itself: a millisecond or so more in all on a GPU. Where it
+    // says true, render throws Interrupted. Empty: nobody asks, and the frame runs as one.
+    StopAsked stopAsked = {};
 };
 
 // Names that --aov takes, in the order that --help prints.
@@ -114,7 +118,8 @@ struct RenderResult {
 
 // Draws one picture after another and keeps on the device whatever the next one does not change: uploads, filtered
 // environments, light maps, lit skin. A camera that moves costs the composite alone, a light that moves its own maps and
-// what they light. Where a call throws, the next one starts afresh. Not for several threads.
+// what they light. Where a call throws, the next one starts afresh; after Interrupted it goes on from the passes that have
+// run. Not for several threads.
 class Renderer {
   public:
     // any: skin is lit whether this view shows it or not, and texels stay as they are until the view asks for far finer or

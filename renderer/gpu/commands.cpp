@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "renderer/gpu/commands_impl.h"
 
@@ -88,6 +89,7 @@ void Commands::dispatch(const Program& program, const Bindings& bindings, const 
     }
     impl_->naming([&] { impl_->prepareDispatch(program, bindings, push); });
     vkCmdDispatch(impl_->resources.commands, groups.x, groups.y, groups.z);
+    impl_->pause();
 }
 
 void Commands::dispatchIndirect(const Program& program, const Bindings& bindings, const PushData& push,
@@ -104,6 +106,7 @@ void Commands::dispatchIndirect(const Program& program, const Bindings& bindings
         impl_->prepareDispatch(program, bindings, push);
     });
     vkCmdDispatchIndirect(impl_->resources.commands, groups.handle(), offset);
+    impl_->pause();
 }
 
 void Commands::beginRendering(const RenderTargets& targets) {
@@ -215,6 +218,7 @@ void Commands::endRendering() {
         }
     }
     vkCmdEndRendering(commands);
+    impl_->pause();
 }
 
 void Commands::draw(const Program& program, const RenderTargets& targets, const Bindings& bindings,
@@ -222,6 +226,10 @@ void Commands::draw(const Program& program, const RenderTargets& targets, const 
     beginRendering(targets);
     draw(program, bindings, push, calls, indices);
     endRendering();
+}
+
+void Commands::stopWhen(StopAsked asked) {
+    impl_->stopAsked = std::move(asked);
 }
 
 void Commands::submitAndWait() {

@@ -29,6 +29,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/core/interrupted.h"
 #include "renderer/gpu/binding.h"
 #include "renderer/gpu/buffer.h"
 #include "renderer/gpu/device.h"
@@ -125,6 +126,10 @@ class Commands {
     // Copies to the host. Images: one mip (the view's first), all its layers, tightly packed.
     Readback readback(const Buffer& buffer);
     Readback readback(const ImageView& image);
+
+    // From now on each dispatch and each set of draws is run and waited for by itself, and `asked` is called after it: where
+    // it says true, recording throws Interrupted. What was recorded until then has run.
+    void stopWhen(StopAsked asked);
 
     // Runs everything and waits. Nothing can be recorded afterwards.
     void submitAndWait();

@@ -274,6 +274,12 @@ void Commands::Impl::flush() {
     beginRecording();
 }
 
+void Commands::Impl::pause() {
+    if (!stopAsked) return;
+    flush();
+    if (stopAsked()) throw Interrupted();
+}
+
 void Commands::Impl::collectTimings() {
     for (const PassRun& run : passes) {
         auto row = std::find_if(timings.begin(), timings.end(),

@@ -70,12 +70,15 @@ struct Commands::Impl {
     void beginRecording();
     void submit();
     void flush();
+    // Where somebody may ask to stop: runs what was recorded, and asks.
+    void pause();
     void collectTimings();
 
     Device& device;
     CommandResources& resources;
     BarrierTracker barriers;
     bool finished = false;
+    StopAsked stopAsked;  // empty: nobody asks
     std::optional<RenderScope> scope;
     bool inPass = false;
     std::vector<PassRun> passes;

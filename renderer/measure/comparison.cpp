@@ -16,10 +16,6 @@ namespace cutis {
 namespace fs = std::filesystem;
 namespace {
 
-// A map's brightest colour: differences of this share of the mean light, and a perceived difference of this
-// much.
-constexpr double kWholeDifference = 1, kWholeFlip = 0.5;
-
 double lightOf(const Picture& picture) {
     double sum = 0;
     for (std::size_t i = 0; i < picture.values.size(); i += picture.channels) {

@@ -27,6 +27,9 @@ struct Difference {
     Picture flipMap;        // one channel, in [0, 1]
 };
 
+// What is white in pictures of the two maps: a difference as large as the mean light, a perceived one of a half.
+inline constexpr double kWholeDifference = 1, kWholeFlip = 0.5;
+
 // Throws std::invalid_argument when sizes differ.
 Difference differenceOf(const ComparedPicture& picture, const ComparedPicture& base);
 

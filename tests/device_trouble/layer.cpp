@@ -5,6 +5,8 @@
 //   feature        every device lacks scalarBlockLayout
 //   memory:BYTES   allocations beyond BYTES in all fail, out of device memory
 //   lost:N         the Nth submission and all later ones find the device lost
+//   crash:N        the same, until another device is created
+//   window:N       the Nth submission by vkQueueSubmit, which only a window's frames use, and all later ones do
 // See "Layer Interface to the Loader" of the Vulkan loader's documentation.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -43,8 +45,8 @@ bool troubled(const char* kind) {
 }
 
 // Functions of the next layer or the driver. They are looked up while an instance or device is created:
-// afterwards the loader answers with the first layer's. One instance and one device at a time are all that
-// the tests need.
+// afterwards the loader answers with the first layer's. One instance, and devices of one driver, whose functions are the
+// same, are all that the tests need.
 struct Next {
     PFN_vkGetInstanceProcAddr getInstance = nullptr;
     PFN_vkCreateDevice createDevice = nullptr;
@@ -54,13 +56,15 @@ struct Next {
     PFN_vkGetDeviceProcAddr getDevice = nullptr;
     PFN_vkAllocateMemory allocateMemory = nullptr;
     PFN_vkFreeMemory freeMemory = nullptr;
+    PFN_vkQueueSubmit queueSubmit = nullptr;
     PFN_vkQueueSubmit2 queueSubmit2 = nullptr;
 };
 Next next;
 
 std::mutex mutex;
 std::map<VkDeviceMemory, VkDeviceSize> allocations;
-std::uint64_t allocated = 0, submissions = 0;
+std::uint64_t allocated = 0, submissions = 0, windowSubmissions = 0;
+bool crashed = false, mended = false;
 
 // The loader's link to the next layer or the driver, in the chain of a create call.
 template <class Info>
@@ -109,7 +113,10 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
     if (result != VK_SUCCESS) return result;
     find(next.allocateMemory, *device, "vkAllocateMemory");
     find(next.freeMemory, *device, "vkFreeMemory");
+    find(next.queueSubmit, *device, "vkQueueSubmit");
     find(next.queueSubmit2, *device, "vkQueueSubmit2");
+    const std::lock_guard lock(mutex);
+    mended = crashed;
     return VK_SUCCESS;
 }
 
@@ -163,7 +170,18 @@ VKAPI_ATTR VkResult VKAPI_CALL queueSubmit2(VkQueue queue, std::uint32_t count, 
                                             VkFence fence) {
     const std::lock_guard lock(mutex);
     if (troubled("lost") && ++submissions >= trouble().value) return VK_ERROR_DEVICE_LOST;
+    if (troubled("crash") && !mended && ++submissions >= trouble().value) {
+        crashed = true;
+        return VK_ERROR_DEVICE_LOST;
+    }
     return next.queueSubmit2(queue, count, infos, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL queueSubmit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
+                                           VkFence fence) {
+    const std::lock_guard lock(mutex);
+    if (troubled("window") && ++windowSubmissions >= trouble().value) return VK_ERROR_DEVICE_LOST;
+    return next.queueSubmit(queue, count, infos, fence);
 }
 
 struct Entry {
@@ -200,6 +218,7 @@ PFN_vkVoidFunction findOwn(const char* name, bool ofDevice) {
         entry("vkGetDeviceProcAddr", getDeviceFunction, true),
         entry("vkAllocateMemory", allocateMemory, true),
         entry("vkFreeMemory", freeMemory, true),
+        entry("vkQueueSubmit", queueSubmit, true),
         entry("vkQueueSubmit2", queueSubmit2, true),
     };
     for (const Entry& own : entries)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "renderer/scene/camera.h"
 #include "renderer/scene/gltf.h"
@@ -118,6 +119,33 @@ TEST_F(MovingScene, OnlyWhatMovedAndWhatItShadesIsLitAgain) {
         Renderer fresh(device(), Renderer::Views::any);
         EXPECT_LE(worstDifference(kept.picture, fresh.render(small_.input, small_.settings).picture), 2e-6);
         small_.input.rig = rig;
+    }
+}
+
+// A pose that was drawn in part, and then the one before it again: what was lit for the other must not stay.
+TEST_F(MovingScene, APoseThatWasInterruptedLeavesNothingBehind) {
+    Renderer renderer(device(), Renderer::Views::any);
+    int asked = 0, stop = 0;
+    const auto pose = [&](double seconds) {
+        poseScene(small_.scene, 0, seconds);
+        ++small_.input.poseRevision;
+        asked = 0;
+        return renderer.render(small_.input, small_.settings);
+    };
+    pose(0.7);
+    small_.settings.stopAsked = [&] { return ++asked == stop; };
+    pose(0.2);
+    const int steps = asked;
+    for (stop = steps / 4; stop < 2 * steps / 3; stop += steps / 4) {
+        SCOPED_TRACE(stop);
+        EXPECT_THROW(pose(0.7), Interrupted);
+        const int at = std::exchange(stop, 0);
+        const RenderResult kept = pose(0.2);
+        stop = at;
+        Renderer fresh(device(), Renderer::Views::any);
+        RenderSettings settings = small_.settings;
+        settings.stopAsked = {};
+        EXPECT_LE(worstDifference(kept.picture, fresh.render(small_.input, settings).picture), 2e-6);
     }
 }
 

@@ -171,6 +171,40 @@ TEST_F(KeepingRenderer, StartsAfreshAfterAnError) {
     EXPECT_EQ(render(), kAll);
 }
 
+// Wherever it is, the next picture is right, whether the light is still what it was to be or as it was before.
+TEST_F(KeepingRenderer, GoesOnFromWhereItWasInterrupted) {
+    render();
+    const RenderInput before = input_;
+    int asked = 0, stop = 0;
+    const auto renderUntil = [&](int step) {
+        asked = 0, stop = step;
+        settings_.stopAsked = [&] { return ++asked == stop; };
+        input_.rig.lights[0].position.x += 0.01;
+        input_.camera.xmag += 0.001;
+        EXPECT_EQ(step > 0, [&] {
+            try {
+                renderer_.render(input_, settings_);
+                return false;
+            } catch (const Interrupted&) {
+                return true;
+            }
+        }());
+        settings_.stopAsked = {};
+    };
+    renderUntil(0);
+    const int steps = asked;
+    ASSERT_GT(steps, 20) << "too coarse to be of use";
+    for (int step = 1; step < steps; step += steps / 5) {
+        SCOPED_TRACE(step);
+        renderUntil(step);
+        if (step % 2 == 0) input_ = before;
+        render();
+    }
+    // All but the last command has run: what follows from the light is there.
+    renderUntil(steps);
+    EXPECT_EQ(render(0), "composite");
+}
+
 // Repeats time all of the frame.
 TEST_F(KeepingRenderer, RepeatsRunEveryRow) {
     render();

@@ -17,7 +17,7 @@ press ctrl+o
 answer "$folder/bad.rig.json"
 
 # The key light a stop brighter in three steps, the last undone; the second light solo, compared with the state of
-# all lights, no longer solo, then muted.
+# all lights by a wipe and in a report, no longer solo, then muted.
 press bracketright
 press bracketright
 press bracketright
@@ -26,6 +26,10 @@ press a
 press Down
 press s
 press w
+press b
+press ctrl+e
+answer "$folder/panel"
+until_true 30 "the comparison is saved" test -s "$folder/panel/index.html"
 press w
 press s
 press m

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <semaphore>
@@ -204,7 +205,8 @@ TEST(RenderWorker, AnotherExposureIsNotRenderedAnew) {
     EXPECT_LE(rendered - before, Refinement::kPixelPictures - 1);  // the refinement, but no first picture
 }
 
-// The scene stands in the pose that was asked for, and whoever keeps what it has uploaded hears of each change once.
+// The scene stands in the pose that was asked for, and whoever keeps what it has uploaded hears of each
+// change once.
 TEST(RenderWorker, PosesTheSceneBeforeItIsDrawn) {
     const TemporaryFolder folder;
     using Drawn = std::pair<double, std::uint64_t>;  // where the hips are, the pose's revision
@@ -242,23 +244,95 @@ TEST(RenderWorker, PosesTheSceneBeforeItIsDrawn) {
     EXPECT_NEAR(last, 0.6, 1e-6);
 }
 
+// The picture that it was lost with comes all the same, or, where that loses the next one too, the reason.
 TEST(RenderWorker, ALostDeviceIsOpenedAnew) {
     int opened = 0;
     RenderWorker worker(
         [&] {
             ++opened;
-            return both([first = opened == 1](const RenderInput&, const RenderSettings& settings) {
-                if (first) throw Error("rendering", "the device was lost (driver crash or time-out)");
+            return both([number = opened](const RenderInput& input, const RenderSettings& settings) {
+                if (number == 1 || input.rig.exposure == 2)
+                    throw Error("rendering", "the device was lost (driver crash or time-out)");
                 return greyPicture(settings);
             });
         },
         [] {});
     worker.show(1, stateOf(0));
-    for (int i = 0; i < 5000 && worker.status().error.empty(); ++i) std::this_thread::sleep_for(1ms);
-    EXPECT_NE(worker.status().error.find("lost"), std::string::npos);
-    worker.show(2, stateOf(0));
-    ASSERT_FALSE(resultsUntil(worker, 2).empty());
+    ASSERT_FALSE(resultsUntil(worker, 1).empty());
+    EXPECT_EQ(worker.status().devicesLost, 1);
+    EXPECT_EQ(worker.status().error, "");
     EXPECT_EQ(opened, 2);
+    worker.show(2, stateOf(2));
+    for (int i = 0; i < 5000 && worker.status().devicesLost < 3; ++i) std::this_thread::sleep_for(1ms);
+    std::this_thread::sleep_for(20ms);
+    EXPECT_EQ(worker.status().devicesLost, 3) << "tried once more, not again and again";
+    EXPECT_NE(worker.status().error.find("lost"), std::string::npos);
+    worker.show(3, stateOf(0));
+    ASSERT_FALSE(resultsUntil(worker, 3).empty());
+}
+
+// A full picture that takes long, as a renderer does that asks between passes.
+TEST(RenderWorker, ANewerStateInterruptsAllButTheFirstPicture) {
+    std::mutex mutex;
+    std::vector<std::pair<double, int>> finished;  // exposure, width
+    int interrupted = 0;
+    std::binary_semaphore fullBegun(0);
+    const RenderFunction slow = [&](const RenderInput& input, const RenderSettings& settings) {
+        EXPECT_EQ(bool(settings.stopAsked), settings.width != 100) << "the draft is finished whatever comes";
+        const bool endless = settings.width == 400 && input.rig.exposure == 1;
+        if (endless) fullBegun.release();
+        for (int i = 0; endless && i < 5000; ++i) {
+            if (settings.stopAsked()) {
+                const std::lock_guard lock(mutex);
+                ++interrupted;
+                throw Interrupted();
+            }
+            std::this_thread::sleep_for(1ms);
+        }
+        const std::lock_guard lock(mutex);
+        finished.emplace_back(input.rig.exposure, settings.width);
+        return greyPicture(settings);
+    };
+    RenderWorker worker([&] { return both(slow); }, [] {});
+    worker.show(1, stateOf(1));
+    ASSERT_TRUE(fullBegun.try_acquire_for(5s));
+    worker.show(2, stateOf(2));
+    ASSERT_FALSE(resultsUntil(worker, 2).empty());
+    EXPECT_EQ(worker.status().error, "");
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(interrupted, 1);
+    ASSERT_GE(finished.size(), 3u);
+    EXPECT_EQ(finished[0], std::pair(1.0, 100));
+    EXPECT_EQ(finished[1], std::pair(2.0, 100));
+    EXPECT_EQ(finished[2], std::pair(2.0, 400));
+}
+
+// Interrupted pictures beside the view are made once it rests.
+TEST(RenderWorker, PicturesBesideTheViewWaitForEdits) {
+    std::binary_semaphore begun(0);
+    std::atomic<int> tries = 0;
+    RenderWorker worker(
+        [&] {
+            return both([&](const RenderInput&, const RenderSettings& settings) {
+                if (settings.width != 64 || ++tries > 1) return greyPicture(settings);
+                begun.release();
+                while (!settings.stopAsked()) std::this_thread::sleep_for(1ms);
+                throw Interrupted();
+            });
+        },
+        [] {});
+    worker.renderAside({7, stateOf(0, 64, 48)});
+    ASSERT_TRUE(begun.try_acquire_for(5s));
+    worker.show(1, stateOf(0));
+    ASSERT_FALSE(resultsUntil(worker, 1).empty());
+    std::vector<AsideResult> beside;
+    for (int i = 0; i < 5000 && beside.empty(); ++i) {
+        beside = worker.takeAside();
+        std::this_thread::sleep_for(1ms);
+    }
+    ASSERT_EQ(beside.size(), 1u);
+    EXPECT_NE(beside[0].linear, nullptr);
+    EXPECT_EQ(tries, 2);
 }
 
 TEST(RenderWorker, PicturesBesideTheViewFollowIt) {

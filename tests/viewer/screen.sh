@@ -12,6 +12,10 @@ open_viewer() {
     read -r number <"$folder/display"
     export DISPLAY=:$number
     cd "$folder"
+    start_viewer "$@"
+}
+# start_viewer PROGRAM ARGUMENTS...: the same on the screen that there is.
+start_viewer() {
     "$@" &
     viewer=$!
     window=$(timeout 60 xdotool search --sync --onlyvisible --name '^cutis - ' | head -1)

@@ -113,6 +113,28 @@ void addTurn(const std::string& file) {
     writeText(file, whole);
 }
 
+// FOLDER/panel is what the panel saved of both lights against the second alone: `cutis compare` finds the
+// same.
+void expectTheCommandLineCompares(const std::string& scene, Rig rig, const TemporaryFolder& folder) {
+    rig.lights[1].enabled = true;
+    saveRig(rig, folder / "both.rig.json");
+    rig.lights.erase(rig.lights.begin());
+    saveRig(rig, folder / "one.rig.json");
+    const Picture a = readPicture(folder / "panel/A-Rig.exr");
+    expectSuccess(runCutis(
+        {"compare", scene, "--a", folder / "both.rig.json", "--b", folder / "one.rig.json", "--device", "cpu",
+         "--size", std::to_string(a.width) + 'x' + std::to_string(a.height), "-o", folder / "command"}));
+    const auto figuresIn = [&](const std::string& report) {
+        return nlohmann::json::parse(readText(folder / (report + "/compare.json")))["pictures"][0];
+    };
+    const nlohmann::json panel = figuresIn("panel"), command = figuresIn("command");
+    // Pictures of two renderers, whose atlases differ (see above).
+    for (const char* figure : {"rel_l2", "p99", "flip", "light_ratio"})
+        EXPECT_NEAR(panel[figure].get<double>() / command[figure].get<double>(), 1, 5e-3) << figure;
+    EXPECT_GT(panel["rel_l2"].get<double>(), 0.1);
+    EXPECT_NE(readText(folder / "panel/index.html").find("A-Rig.png"), std::string::npos);
+}
+
 TEST(Screen, ARigIsMadeComparedUndoneAndSaved) {
     const TemporaryFolder folder;
     const std::string scene = folder / "heads.glb", rigFile = folder / "heads.rig.json";
@@ -154,6 +176,8 @@ TEST(Screen, ARigIsMadeComparedUndoneAndSaved) {
     // The view goes through angles and back: some 1e-9 of a pixel, which may tip a sample over an edge.
     EXPECT_LT(relativeL2(shown, expected), 2e-3);
 
+    expectTheCommandLineCompares(scene, saved, folder);
+
     const Picture screen = readPicture(folder / "screen.png");
     ASSERT_EQ(screen.width, 960);
     ASSERT_EQ(screen.height, 540);
@@ -161,6 +185,80 @@ TEST(Screen, ARigIsMadeComparedUndoneAndSaved) {
     EXPECT_GT(contrast(screen, {left, 100, screen.width - left, 450}), 0.03)
         << "no picture between the panels";
     EXPECT_GT(contrast(screen, {5, 30, left - 5, 300}), 0.03) << "no rig panel";
+}
+
+TEST(Screen, NothingHarmsItWhileItLoads) {
+    const TemporaryFolder folder;
+    const ProcessResult run =
+        runProcess({"/bin/bash", CUTIS_DRIVE_LOADING_SCRIPT, CUTIS_PROGRAM, folder.path(), CUTIS_DROP_FILE},
+                   {{"CUTIS_CACHE_DIR", folder / "cache"},
+                    {"CUTIS_DATA_DIR", CUTIS_DATA_DIR},
+                    {"CUTIS_VALIDATION", "1"}},
+                   150);
+    ASSERT_EQ(run.status, 0) << run.out << run.err;
+    for (const char* file : {"bad.glb", "bad.exr", "bad.rig.json"})
+        EXPECT_NE(run.err.find(file), std::string::npos) << file << '\n' << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 3) << "nothing else is said: " << run.err;
+    const Picture screen = readPicture(folder / "screen.png");
+    EXPECT_GT(contrast(screen, {5, 30, 285, 250}), 0.03) << "the rig panel came all the same";
+}
+
+// Under a Vulkan layer that makes the device fail (tests/device_trouble/layer.cpp).
+class ScreenInTrouble : public testing::Test {
+  protected:
+    ScreenInTrouble() {
+        writeGlb(twoSpheres(), scene_);
+        Rig rig;
+        rig.lights = {spotAt("key", 30), spotAt("rim", 150)};
+        saveRig(rig, rigFile_);
+    }
+    ProcessResult drive(const std::string& trouble) const {
+        return runProcess({"/bin/bash", CUTIS_DRIVE_TROUBLE_SCRIPT, CUTIS_PROGRAM, scene_, folder_.path()},
+                          {{"CUTIS_CACHE_DIR", folder_ / "cache"},
+                           {"CUTIS_DATA_DIR", folder_ / "data"},
+                           {"NODEVICE_SELECT", "1"},
+                           {"VK_ADD_LAYER_PATH", CUTIS_TROUBLE_LAYERS},
+                           {"VK_INSTANCE_LAYERS", "VK_LAYER_CUTIS_trouble"},
+                           {"CUTIS_TROUBLE", trouble}},
+                          150);
+    }
+    // The key light was made a stop brighter.
+    void expectBrighter(const std::string& file) const {
+        const Rig saved = loadRig(file);
+        ASSERT_EQ(saved.lights.size(), 2u);
+        EXPECT_NEAR(saved.lights[0].intensity, 8, 1e-9);
+    }
+    double pictureContrast() const {
+        return contrast(readPicture(folder_ / "screen.png"), {330, 120, 630, 420});
+    }
+
+    const TemporaryFolder folder_;
+    const std::string scene_ = folder_ / "heads.glb", rigFile_ = folder_ / "heads.rig.json";
+};
+
+TEST_F(ScreenInTrouble, ALostDeviceIsOpenedAnew) {
+    const ProcessResult run = drive("crash:3");
+    ASSERT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_NE(run.err.find("The device was lost"), std::string::npos) << run.err;
+    expectBrighter(rigFile_);
+    EXPECT_GT(pictureContrast(), 0.03) << "the picture came all the same";
+}
+
+TEST_F(ScreenInTrouble, OutOfMemoryIsSaidAndTheRigKept) {
+    const ProcessResult run = drive("memory:30000000");
+    ASSERT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_NE(run.err.find("out of device memory"), std::string::npos) << run.err;
+    expectBrighter(rigFile_);
+}
+
+// Without a device for the window there is nothing to go on with.
+TEST_F(ScreenInTrouble, WhenTheWindowsDeviceIsLostTheRigIsRecovered) {
+    const ProcessResult run = drive("window:150");
+    EXPECT_NE(run.status, 0);
+    EXPECT_NE(run.err.find("the device was lost"), std::string::npos) << run.err;
+    const std::string left = folder_ / "cache/autosave.rig.json";
+    ASSERT_TRUE(std::filesystem::is_regular_file(left)) << run.err;
+    EXPECT_GT(loadRig(left).lights.at(0).intensity, 4);
 }
 
 // The same with three people, from the data that set-up fetched.

@@ -1,6 +1,7 @@
 // Two states beside each other.
 #include <imgui.h>
 
+#include "app/viewer/actions.h"
 #include "app/viewer/comparing.h"
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/panels/widgets.h"
@@ -84,6 +85,11 @@ void drawComparePanel(Session& session) {
     for (const auto& [text, mode] : modes)
         if (ImGui::RadioButton(text, session.compareMode == mode)) session.compareMode = mode;
     if (session.compareMode == CompareMode::wipe) sliderRow("Wipe at", session.wipe, 0, 1, "%.2f");
+    ImGui::BeginDisabled(!session.compared[0].stored);
+    if (ImGui::Button("Save the comparison ...", {-1, 0}))
+        showDialog(session, Dialog::saveComparison, "comparison");
+    ImGui::EndDisabled();
+    hint("Pictures, difference maps, figures and a page that shows them, as cutis compare writes them (Ctrl+E)");
     if (session.compareMode == CompareMode::off) return;
     if (!session.compared[0].stored) {
         ImGui::TextDisabled("Store a state as A first.");

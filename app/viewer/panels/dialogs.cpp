@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/viewer/actions.h"
+#include "app/viewer/comparing.h"
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/panels/widgets.h"
 
@@ -110,6 +111,10 @@ void drawDialogs(Session& session) {
                                    "Also FILE.NAME.exr for diffuse, specular, irradiance, thickness, albedo, "
                                    "normal, position, depth and character");
                            });
+            break;
+        case Dialog::saveComparison:
+            drawPathDialog(session, "Save the comparison in the folder", "Save",
+                           "Pictures, maps, figures and index.html, as cutis compare writes them", saveComparison);
             break;
         case Dialog::unsaved:
             drawUnsaved(session);

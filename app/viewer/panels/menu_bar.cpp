@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include "app/viewer/actions.h"
+#include "app/viewer/autosave.h"
 #include "app/viewer/panels/panels.h"
 
 namespace cutis::app {
@@ -21,10 +22,12 @@ void drawFileMenu(Session& session) {
         showDialog(session, Dialog::saveRig, session.document().rigFile.string());
     if (ImGui::MenuItem("Save skin as ...", nullptr, false, session.geometry != nullptr))
         showDialog(session, Dialog::saveSkin, "untitled.skin.json");
-    if (ImGui::MenuItem("Recover rig", nullptr, false, session.recoverable)) recoverRig(session);
+    if (ImGui::MenuItem("Recover unsaved", nullptr, false, session.recoverable)) recoverUnsaved(session);
     ImGui::Separator();
     if (ImGui::MenuItem("Save picture ...", "Ctrl+P"))
         showDialog(session, Dialog::savePicture, "picture.png");
+    if (ImGui::MenuItem("Save comparison ...", "Ctrl+E", false, session.compared[0].stored))
+        showDialog(session, Dialog::saveComparison, "comparison");
     if (ImGui::MenuItem("Copy command line", "Ctrl+Shift+C")) copyCommandLine(session);
     ImGui::Separator();
     if (ImGui::MenuItem("Quit", "Ctrl+Q")) quit(session);

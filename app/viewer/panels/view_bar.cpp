@@ -18,8 +18,9 @@ constexpr std::pair<const char*, double> kShapes[] = {{"Fill", 0.0},     {"16:9"
                                                       {"4:3", 4.0 / 3},  {"1:1", 1.0},       {"4:5", 0.8},
                                                       {"9:16", 9.0 / 16}};
 
-// Widths of the bar in which all of it finds room, and in which the shape still does; in sizes of the font.
-constexpr float kRoomForAll = 46, kRoomForShape = 36;
+// Widths of the bar in which all of it finds room, in which the shape still does, wide gaps, and a button for
+// each way to place a light; in sizes of the font.
+constexpr float kRoomForAll = 46, kRoomForShape = 36, kRoomForGaps = 29, kRoomForButtons = 25;
 
 bool isShown(const Session& session, const Overlay& overlay) {
     return session.overlay.aov == overlay.aov && session.overlay.inspect.what == overlay.inspect;
@@ -46,11 +47,11 @@ void drawNumbers(Session& session) {
         drawNumber(inspect.part, samples, "Which sample of the light");
 }
 
-void drawOverlayChoice(Session& session) {
+void drawOverlayChoice(Session& session, float width) {
     const Overlay* shown = &overlays()[0];
     for (const Overlay& overlay : overlays())
         if (isShown(session, overlay)) shown = &overlay;
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7.5f);
+    ImGui::SetNextItemWidth(width);
     if (ImGui::BeginCombo("##show", shown->label, ImGuiComboFlags_HeightLargest)) {
         for (const Overlay& overlay : overlays()) {
             if (ImGui::Selectable(overlay.label, &overlay == shown))
@@ -63,6 +64,29 @@ void drawOverlayChoice(Session& session) {
     drawNumbers(session);
 }
 
+constexpr const char* kHighlightHelp =
+    "Drag on a face: the chosen light moves so that its highlight falls under the mouse (L; or hold Ctrl)";
+constexpr const char* kShadowEdgeHelp =
+    "Drag on a face: the chosen light moves so that its shadow begins under the mouse (or hold Ctrl and "
+    "Shift)";
+
+// The same in the room of one button.
+void drawPlacingChoice(Session& session) {
+    const char* shown = !session.placing                         ? "Place by"
+                        : *session.placing == PlaceBy::highlight ? "highlight"
+                                                                 : "shadow edge";
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6.5f);
+    if (!ImGui::BeginCombo("##place", shown)) return;
+    if (ImGui::Selectable("off", !session.placing)) session.placing.reset();
+    if (ImGui::Selectable("highlight", session.placing == PlaceBy::highlight))
+        session.placing = PlaceBy::highlight;
+    hint(kHighlightHelp);
+    if (ImGui::Selectable("shadow edge", session.placing == PlaceBy::shadowEdge))
+        session.placing = PlaceBy::shadowEdge;
+    hint(kShadowEdgeHelp);
+    ImGui::EndCombo();
+}
+
 void drawPlacing(Session& session, bool narrow) {
     const auto choose = [&](const char* text, PlaceBy by, const char* help) {
         if (toggleButton(text, session.placing == by, accentColor()))
@@ -73,13 +97,9 @@ void drawPlacing(Session& session, bool narrow) {
         ImGui::TextDisabled("Place light by");
         ImGui::SameLine();
     }
-    choose("highlight", PlaceBy::highlight,
-           "Drag on a face: the chosen light moves so that its highlight falls under the mouse (L; or hold "
-           "Ctrl)");
+    choose("highlight", PlaceBy::highlight, kHighlightHelp);
     ImGui::SameLine();
-    choose("shadow edge", PlaceBy::shadowEdge,
-           "Drag on a face: the chosen light moves so that its shadow begins under the mouse (or hold Ctrl "
-           "and Shift)");
+    choose("shadow edge", PlaceBy::shadowEdge, kShadowEdgeHelp);
 }
 
 void drawShape(Session& session) {
@@ -106,18 +126,24 @@ void drawViewBar(Session& session, const PixelRect& where) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PopStyleVar();
-    drawOverlayChoice(session);
-    ImGui::SameLine(0, 16 * scale);
+    // What matters least goes first where there is no room: the label, the shape, gaps.
+    const float font = ImGui::GetFontSize(), room = ImGui::GetWindowWidth() / font;
+    const bool tight = room < kRoomForGaps;
+    const float gap = (tight ? 6 : 16) * scale;
+    drawOverlayChoice(session, font * (tight ? 6.5f : 7.5f));
+    ImGui::SameLine(0, gap);
     ImGui::AlignTextToFramePadding();
-    // What matters least goes first where there is no room: the label, then the shape.
-    const float room = ImGui::GetWindowWidth() / ImGui::GetFontSize();
-    drawPlacing(session, room < kRoomForAll);
-    ImGui::SameLine(0, 16 * scale);
+    if (room < kRoomForButtons) {
+        drawPlacingChoice(session);
+    } else {
+        drawPlacing(session, room < kRoomForAll);
+    }
+    ImGui::SameLine(0, gap);
     if (toggleButton("Mixer", session.mixer.shown, accentColor())) session.mixer.shown = !session.mixer.shown;
     hint("Every light's own picture with a fader: mixing them renders nothing (X)");
     if (room < kRoomForShape) return ImGui::End();
     // At the right edge, or after the rest where that leaves no room.
-    const float right = ImGui::GetWindowWidth() - ImGui::GetFontSize() * 4.5f - 8 * scale;
+    const float right = ImGui::GetWindowWidth() - font * 4.5f - 8 * scale;
     ImGui::SameLine();
     ImGui::SameLine(std::max(right, ImGui::GetCursorPosX()));
     drawShape(session);

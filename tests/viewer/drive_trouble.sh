@@ -1,0 +1,17 @@
+#!/bin/bash
+# drive_trouble.sh PROGRAM SCENE FOLDER: under a device that fails (tests/device_trouble): a light is made a stop brighter in
+# three steps and the rig saved. Leaves the rig beside the scene and FOLDER/screen.png.
+set -euo pipefail
+program=$1 scene=$2 folder=$3
+. "$(dirname "${BASH_SOURCE[0]}")/screen.sh"
+
+open_viewer "$program" view "$scene" --device cpu --size 960x540 --ui-scale 1
+until_true 60 "the panels" panels_shown
+sleep 2 # the trouble comes with the first pictures
+press bracketright
+press bracketright
+press bracketright
+press ctrl+s
+sleep 2
+import -window "$window" "$folder/screen.png"
+close_viewer
