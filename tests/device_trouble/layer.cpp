@@ -6,7 +6,7 @@
 //   memory:BYTES   allocations beyond BYTES in all fail, out of device memory
 //   lost:N         the Nth submission and all later ones find the device lost
 //   crash:N        the same, until another device is created
-//   window:N       the Nth submission by vkQueueSubmit, which only a window's frames use, and all later ones do
+//   window:FILE    once FILE exists, submissions by vkQueueSubmit do, which only a window's frames use
 // See "Layer Interface to the Loader" of the Vulkan loader's documentation.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <string>
@@ -21,7 +22,7 @@
 namespace {
 
 struct Trouble {
-    std::string kind;
+    std::string kind, text;  // what stands before and after the colon
     std::uint64_t value = 0;
 };
 
@@ -29,7 +30,8 @@ Trouble readTrouble() {
     const char* text = std::getenv("CUTIS_TROUBLE");
     Trouble trouble{text ? text : ""};
     if (const std::size_t colon = trouble.kind.find(':'); colon != std::string::npos) {
-        trouble.value = std::strtoull(trouble.kind.c_str() + colon + 1, nullptr, 10);
+        trouble.text = trouble.kind.substr(colon + 1);
+        trouble.value = std::strtoull(trouble.text.c_str(), nullptr, 10);
         trouble.kind.resize(colon);
     }
     return trouble;
@@ -45,8 +47,8 @@ bool troubled(const char* kind) {
 }
 
 // Functions of the next layer or the driver. They are looked up while an instance or device is created:
-// afterwards the loader answers with the first layer's. One instance, and devices of one driver, whose functions are the
-// same, are all that the tests need.
+// afterwards the loader answers with the first layer's. One instance, and devices of one driver, whose
+// functions are the same, are all that the tests need.
 struct Next {
     PFN_vkGetInstanceProcAddr getInstance = nullptr;
     PFN_vkCreateDevice createDevice = nullptr;
@@ -63,7 +65,7 @@ Next next;
 
 std::mutex mutex;
 std::map<VkDeviceMemory, VkDeviceSize> allocations;
-std::uint64_t allocated = 0, submissions = 0, windowSubmissions = 0;
+std::uint64_t allocated = 0, submissions = 0;
 bool crashed = false, mended = false;
 
 // The loader's link to the next layer or the driver, in the chain of a create call.
@@ -179,8 +181,7 @@ VKAPI_ATTR VkResult VKAPI_CALL queueSubmit2(VkQueue queue, std::uint32_t count, 
 
 VKAPI_ATTR VkResult VKAPI_CALL queueSubmit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
                                            VkFence fence) {
-    const std::lock_guard lock(mutex);
-    if (troubled("window") && ++windowSubmissions >= trouble().value) return VK_ERROR_DEVICE_LOST;
+    if (troubled("window") && std::filesystem::exists(trouble().text)) return VK_ERROR_DEVICE_LOST;
     return next.queueSubmit(queue, count, infos, fence);
 }
 

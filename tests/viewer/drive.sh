@@ -29,7 +29,7 @@ press w
 press b
 press ctrl+e
 answer "$folder/panel"
-until_true 30 "the comparison is saved" test -s "$folder/panel/index.html"
+until_true 60 "the comparison is saved" test -s "$folder/panel/index.html"
 press w
 press s
 press m

@@ -1,6 +1,6 @@
 #!/bin/bash
 # drive_trouble.sh PROGRAM SCENE FOLDER: under a device that fails (tests/device_trouble): a light is made a stop brighter in
-# three steps and the rig saved. Leaves the rig beside the scene and FOLDER/screen.png.
+# three steps and the rig saved, unless it is the window's device that is lost then. Leaves the rig beside the scene and FOLDER/screen.png.
 set -euo pipefail
 program=$1 scene=$2 folder=$3
 . "$(dirname "${BASH_SOURCE[0]}")/screen.sh"
@@ -11,6 +11,11 @@ sleep 2 # the trouble comes with the first pictures
 press bracketright
 press bracketright
 press bracketright
+if [[ $CUTIS_TROUBLE == window:* ]]; then
+    touch "${CUTIS_TROUBLE#window:}"
+    until_ended
+    wait "$viewer" # its status is this script's
+fi
 press ctrl+s
 sleep 2
 import -window "$window" "$folder/screen.png"

@@ -61,10 +61,13 @@ disturb_window() { # WIDTH HEIGHT, as before
     xdotool windowfocus "$window"
     xdotool windowsize "$window" "$1" "$2" && sleep 0.5
 }
+until_ended() {
+    # Mesa writes its shader cache on a thread of the lowest priority, which on a busy machine takes its time to end.
+    for _ in $(seq 600); do kill -0 "$viewer" 2>/dev/null || return 0; sleep 0.1; done
+    fail "the viewer does not end"
+}
 close_viewer() {
     press ctrl+q
-    # Mesa writes its shader cache on a thread of the lowest priority, which on a busy machine takes its time to end.
-    for _ in $(seq 600); do kill -0 "$viewer" 2>/dev/null || break; sleep 0.1; done
-    kill -0 "$viewer" 2>/dev/null && fail "the viewer does not end"
+    until_ended
     wait "$viewer"
 }
