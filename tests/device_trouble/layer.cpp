@@ -28,7 +28,8 @@ struct Trouble {
 
 Trouble readTrouble() {
     const char* text = std::getenv("CUTIS_TROUBLE");
-    Trouble trouble{text ? text : ""};
+    Trouble trouble;
+    trouble.kind = text ? text : "";
     if (const std::size_t colon = trouble.kind.find(':'); colon != std::string::npos) {
         trouble.text = trouble.kind.substr(colon + 1);
         trouble.value = std::strtoull(trouble.text.c_str(), nullptr, 10);
