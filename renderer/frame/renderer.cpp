@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "renderer/core/timeline.h"
 #include "renderer/frame/ahead.h"
@@ -59,6 +60,7 @@ struct Renderer::State {
     std::uint64_t poseRevision = 0;  // that it is in
     std::map<const PassRow*, std::uint64_t> bytes;
     SkinFigures skin;
+    bool skinUnread = false;  // skin was lit for a frame that was interrupted: `skin` is not of it
 
     RenderResult render(const RenderInput& input, const RenderSettings& settings);
     RenderStats plan(const RenderInput& input, const RenderSettings& settings);
@@ -172,7 +174,7 @@ std::vector<gpu::PassTiming> Renderer::State::drawFrame(const Plan& plan, const 
     gpu::Commands commands = frame.device->begin();
     commands.stopWhen(frame.settings->stopAsked);
     frame.commands = &commands;
-    bool lit = false;
+    bool lit = std::exchange(skinUnread, false);
     for (std::size_t i = 0; i < plan.rows.size(); ++i) {
         const PassRow& row = *plan.rows[i];
         if (row.phase != Phase::frame || !decisions[i].run) continue;
@@ -181,6 +183,7 @@ std::vector<gpu::PassTiming> Renderer::State::drawFrame(const Plan& plan, const 
             record(row, decisions[i].changes);
         } catch (const Interrupted&) {
             forgetFrom(plan, decisions, i);
+            skinUnread = lit;
             throw;
         }
         commands.endPass();
