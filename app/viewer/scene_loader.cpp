@@ -119,15 +119,17 @@ LoadedScene loadOrExplain(const Request& request) {
 
 }  // namespace
 
-void SceneLoader::start(const Request& request) {
+void SceneLoader::start(const Request& request, bool opens) {
     name_ = request.operands.at(0);
     begun_ = std::chrono::steady_clock::now();
     if (pending_.valid()) {
-        next_ = request;
+        next_ = {request, opens};
         return;
     }
-    pending_ = std::async(std::launch::async, [request, wake = wake_] {
+    pending_ = std::async(std::launch::async, [request, opens, wake = wake_] {
         LoadedScene loaded = loadOrExplain(request);
+        loaded.name = request.operands.at(0);
+        loaded.opens = opens;
         wake();
         return loaded;
     });
@@ -138,15 +140,16 @@ double SceneLoader::seconds() const {
 }
 
 std::optional<LoadedScene> SceneLoader::take() {
-    if (!pending_.valid() || pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return std::nullopt;
+    if (!pending_.valid()) return std::exchange(before_, std::nullopt);
+    if (pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
     LoadedScene loaded = pending_.get();
     if (next_) {
-        const Request request = *std::exchange(next_, std::nullopt);
-        start(request);
+        if (loaded.error.empty()) before_ = std::move(loaded);
+        const Wanted wanted = *std::exchange(next_, std::nullopt);
+        start(wanted.request, wanted.opens);
         return std::nullopt;
     }
-    if (!loaded.error.empty()) loaded.name = name_;
+    if (loaded.error.empty()) before_.reset();
     return loaded;
 }
 

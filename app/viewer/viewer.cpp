@@ -132,8 +132,7 @@ class Viewer {
     }
 
     void startLoading(const Request& request) {
-        opens_ = true;
-        loader_.start(request);
+        loader_.start(request, true);
     }
 
     // Undo past the opening of a scene needs that scene back, with the document as it is.
@@ -153,12 +152,11 @@ class Viewer {
         request.camera.clear();
         request.animation.reset();
         request.time.reset();
-        opens_ = false;
-        loader_.start(request);
+        loader_.start(request, false);
     }
 
     void takeNews() {
-        if (std::optional<LoadedScene> loaded = loader_.take()) takeScene(std::move(*loaded));
+        while (std::optional<LoadedScene> loaded = loader_.take()) takeScene(std::move(*loaded));
         session_.loading = loader_.loading() ? loader_.name() : "";
         session_.loadingSeconds = loader_.loading() ? loader_.seconds() : 0;
         takeWorkerStatus();
@@ -247,11 +245,11 @@ class Viewer {
         session_.mixer.contributions.clear();
         // Cameras of a file are made for the usual picture; a view that is framed here fills what room there
         // is.
-        if (opens_) session_.pictureAspect = loaded.geometry->cameras.empty() ? 0 : 16.0 / 9;
-        if (opens_ && loaded.name != "default") rememberFile(session_, loaded.name);
-        if (opens_ && session_.document().scene.empty()) {
+        if (loaded.opens) session_.pictureAspect = loaded.geometry->cameras.empty() ? 0 : 16.0 / 9;
+        if (loaded.opens && loaded.name != "default") rememberFile(session_, loaded.name);
+        if (loaded.opens && session_.document().scene.empty()) {
             openFirst(loaded.document);
-        } else if (opens_) {
+        } else if (loaded.opens) {
             session_.edits.endGesture();
             session_.edits.apply("Open " + loaded.name,
                                  [&](Document& document) { document = loaded.document; });
@@ -456,7 +454,6 @@ class Viewer {
     ScenePoser poser_;
     Clock::time_point played_ = Clock::now();  // up to when the time line has gone on
     std::optional<Pose> refused_;              // a pose that the scene cannot take
-    bool opens_ = true;                        // what is loading becomes the document
     std::string unavailable_;                  // a scene that could not be loaded: not tried again by itself
     std::optional<Key> shownKey_;
     int frames_ = 0;  // to draw without a pause: ImGui answers a key in the frame after
