@@ -39,6 +39,7 @@ BufferObject::BufferObject(Device& owner, BufferDesc description)
 }
 
 BufferObject::~BufferObject() {
+    device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(handle), {});
     vkDestroyBuffer(device.handle(), handle, nullptr);
     device.memory().release(memory);
 }

@@ -263,8 +263,9 @@ VkFormatFeatureFlags Device::formatFeatures(VkFormat format) const {
 
 void Device::setName(VkObjectType type, std::uint64_t handle, const std::string& name) const {
     if (!setObjectName_) return;
-    const VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr,
-                                             type, handle, name.c_str()};
+    // An empty one takes the name off: the validation layers remember those of objects that are no more, for ever.
+    const VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr, type, handle,
+                                             name.empty() ? nullptr : name.c_str()};
     setObjectName_(device_, &info);
 }
 

@@ -107,7 +107,11 @@ ImageObject::ImageObject(Device& owner, ImageDesc description)
 }
 
 ImageObject::~ImageObject() {
-    for (const auto& [key, view] : views) vkDestroyImageView(device.handle(), view, nullptr);
+    for (const auto& [key, view] : views) {
+        device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<std::uint64_t>(view), {});
+        vkDestroyImageView(device.handle(), view, nullptr);
+    }
+    device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(handle), {});
     vkDestroyImage(device.handle(), handle, nullptr);
     device.memory().release(memory);
 }

@@ -19,26 +19,29 @@ using Json = nlohmann::json;
 
 constexpr double kTimeout = 550;  // seconds, of a machine that has much else to do: it works for 30
 
-// How far a case may be off in pictures of 16 x 16, most of whose error is at the rim.
+// How far a case may be off in pictures of 16 x 16, most of whose error is at the rim: half as much again as it is. References go
+// by their standard error, not by time, so the figures are the same on any machine.
 struct Limit {
     double drift, error;
 };
 
 Limit limitOf(const std::string& name) {
-    // Gaussians wider than the body lose light into the air around it, which texture space keeps.
-    if (name == "profile 1000 times as wide" || name == "variances eight decades apart") return {4, 4};
-    // Its light falls within a few texels.
-    if (name == "a bulb 1 mm before the skin" || name == "a bulb in the skin") return {0.5, 1};
-    // Highlights far below a pixel: nine samples of them.
-    if (name.starts_with("roughness 0.0")) return {1.5, 10};
-    if (name.starts_with("black")) return {0.2, 1};
-    return {0.05, 0.2};
+    // The light of Gaussians wider than the body lies more evenly on it than on the charts of the atlas.
+    if (name == "profile 1000 times as wide") return {0.06, 0.17};
+    if (name == "variances eight decades apart") return {0.03, 0.08};
+    // Its light falls within a texel.
+    if (name == "a bulb 1 mm before the skin" || name == "a bulb in the skin") return {0.6, 1};
+    // A highlight far below a pixel, which nine samples of it meet or do not.
+    if (name.starts_with("roughness 0.01")) return {0.4, 5};
+    // Nothing but highlights.
+    if (name.starts_with("black")) return {0.03, 0.18};
+    return {0.025, 0.1};
 }
 
 TEST(Sweep, EveryCaseHolds) {
     const TemporaryFolder folder("cutis-sweep");
     SceneBuilder builder;
-    builder.addObject("body", makeSphere(50 * kMm, SphereMapping::cube),
+    builder.addObject("body", sphere(50 * kMm, SphereMapping::cube),
                       builder.addSkin(SkinMaterial(), {0.8, 0.6, 0.5}));
     builder.setOrthographicCamera({0, 0, 0.5}, {0, 0, 0}, 0.11);
     writeGlb(builder.scene(), folder / "scene.glb");
@@ -49,7 +52,7 @@ TEST(Sweep, EveryCaseHolds) {
                    {"type": "point", "position": [-0.4, 0.1, 0.3], "intensity": 0.2}]})";
     const ProcessResult run =
         runProcess({CUTIS_PROGRAM, "measure", folder / "scene.glb", "--rig", folder / "test.rig.json",
-                    "--sweep", "stability", "--size", "16x16", "--error", "3%", "--repeats", "1",
+                    "--sweep", "stability", "--size", "16x16", "--error", "4%", "--repeats", "1",
                     "--device", "cpu", "-o", folder / "out"},
                    {{"CUTIS_CACHE_DIR", CUTIS_TEST_CACHE_DIR}}, kTimeout);
     ASSERT_EQ(run.status, 0) << run.err;
