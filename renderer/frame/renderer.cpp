@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "renderer/core/error.h"
 #include "renderer/core/timeline.h"
 #include "renderer/frame/ahead.h"
 #include "renderer/frame/camera.h"
@@ -79,12 +80,29 @@ struct Renderer::State {
     PassStats statsOf(const PassRow& row, const std::string& why, bool ran) const;
 };
 
+namespace {
+
+// Said before such a scene is laid out, which takes half a minute.
+void expectWithinReach(const gpu::Device& device, const Geometry& geometry) {
+    const std::uint64_t reach = device.limits().maxStorageBufferRange;
+    const std::uint64_t bytes = std::max(geometry.attributes.size() * sizeof(geometry.attributes[0]),
+                                         geometry.indices.size() * sizeof(geometry.indices[0]));
+    if (bytes <= reach) return;
+    throw Error("cannot draw the scene",
+                "its " + std::to_string(geometry.attributes.size()) + " vertices take a buffer of " + std::to_string(bytes / 1'000'000) +
+                    " MB, shaders of this device reach " + std::to_string(reach / 1'000'000),
+                device.info().name);
+}
+
+}  // namespace
+
 void Renderer::State::readGeometry() {
     const RenderInput& input = *frame.input;
     const std::uint64_t key = hashGeometry(input);
     if (geometry != key) {
         geometry = 0;
         frame.geometry = flattenScene(*input.scene);
+        expectWithinReach(*frame.device, frame.geometry);
         const AtRest atRest(frame.geometry);
         frame.skinMesh = makeSkinMesh(frame.geometry);
         frame.detail = {};

@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -28,9 +29,19 @@ namespace {
 constexpr int kThreads = 4, kArenas = 2;
 // A decoder may wait for a slow disk, not for ever: so many times the seconds of processor time that it has.
 constexpr unsigned kPatience = 20;
+// A small file may hold much: its decoder gets a second more for so much as there is to decode.
+constexpr std::uint64_t kDecodedBytesASecond = 150'000'000;
 
 void setText(std::array<char, 512>& field, const std::string& text) {
     std::snprintf(field.data(), field.size(), "%s", text.c_str());
+}
+
+// Of processor time, for an image of that many bytes decoded. At the most those that the request allows.
+void limitSeconds(const Request& request, std::uint64_t decoded) {
+    const rlim_t seconds = request.seconds + decoded / kDecodedBytesASecond;
+    const rlimit both{seconds, request.seconds + request.limits.bytes / kDecodedBytesASecond + 1};
+    ::setrlimit(RLIMIT_CPU, &both);
+    ::alarm(static_cast<unsigned>(seconds) * kPatience);
 }
 
 void limitResources(const Request& request) {
@@ -39,8 +50,7 @@ void limitResources(const Request& request) {
         ::setrlimit(resource, &both);
     };
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, request.seconds);
-    ::alarm(request.seconds * kPatience);
+    limitSeconds(request, 0);
 #ifndef __SANITIZE_ADDRESS__  // which reserves terabytes of addresses
     unsigned long pages = 0;
     if (std::FILE* statm = std::fopen("/proc/self/statm", "r")) {
@@ -57,6 +67,7 @@ void answer(const Parcel<Request>& parcel) {
     Parcel<Reply> reply;
     SharedBytes made;
     const Allocate allocate = [&](std::uint64_t bytes) {
+        limitSeconds(request, std::min(bytes, request.limits.bytes));
         made = SharedBytes(bytes);
         return made.data();
     };
