@@ -221,13 +221,10 @@ std::vector<Option> makeOptions() {
          "OUT.a.diffuse.exr and "
          "OUT.b.diffuse.exr: what makes an error estimate unbiased",
          false, [](Request& r, const std::string&) { r.halves = true; }},
-        {"--stats", "FILE", kViewer, "Window",
-         "When the window closes, write how long frames took, and how long pictures took to follow edits",
-         false, [](Request& r, const std::string& text) { r.stats = parseText(text); }},
         {"--stats", "FILE", kPicture, output,
          "Write what ran, what was left out and why, times and bytes as JSON", false,
          [](Request& r, const std::string& text) { r.stats = parseText(text); }},
-        {"--exposure", "EV", kView, output,
+        {"--exposure", "EV", kView & ~kViewer, output,
          helpOf(fields::kExposure) + ", added to the rig's; for .png only (default: 0)", false,
          [](Request& r, const std::string& text) { r.exposure = parseField(text, fields::kExposure); }},
         {"-o, --output", "DIR", kCompare | kMeasure, output,
@@ -245,6 +242,9 @@ std::vector<Option> makeOptions() {
          [](Request& r, const std::string& text) {
              r.uiScale = parseNumber(text, kMinUiScale, kMaxUiScale);
          }},
+        {"--stats", "FILE", kViewer, "Window",
+         "When the window closes, write how long frames took, and how long pictures took to follow edits",
+         false, [](Request& r, const std::string& text) { r.stats = parseText(text); }},
         {"--size", "WxH", kMeasure, output, "Pixels of the pictures that are compared (default: 480x270)",
          false,
          [](Request& r, const std::string& text) {
@@ -307,6 +307,8 @@ std::vector<Option> makeOptions() {
          [](Request& r, const std::string& text) {
              r.environmentRotation = parseField(text, fields::kRotation);
          }},
+        {"--exposure", "EV", kViewer, view, helpOf(fields::kExposure) + ", added to the rig's (default: 0)",
+         false, [](Request& r, const std::string& text) { r.exposure = parseField(text, fields::kExposure); }},
         {"--background", "NAME", kRender | kViewer, view,
          "What lies behind the scene: none, env, the environment, or blurred. Alpha stays the coverage "
          "(default: none)",
