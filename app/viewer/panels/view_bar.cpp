@@ -75,7 +75,7 @@ void drawPlacingChoice(Session& session) {
     const char* shown = !session.placing                         ? "Place by"
                         : *session.placing == PlaceBy::highlight ? "highlight"
                                                                  : "shadow edge";
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6.5f);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6.2f);
     if (!ImGui::BeginCombo("##place", shown)) return;
     if (ImGui::Selectable("off", !session.placing)) session.placing.reset();
     if (ImGui::Selectable("highlight", session.placing == PlaceBy::highlight))
@@ -130,7 +130,7 @@ void drawViewBar(Session& session, const PixelRect& where) {
     const float font = ImGui::GetFontSize(), room = ImGui::GetWindowWidth() / font;
     const bool tight = room < kRoomForGaps;
     const float gap = (tight ? 6 : 16) * scale;
-    drawOverlayChoice(session, font * (tight ? 6.5f : 7.5f));
+    drawOverlayChoice(session, font * (room < kRoomForButtons ? 5.2f : tight ? 6.5f : 7.5f));
     ImGui::SameLine(0, gap);
     ImGui::AlignTextToFramePadding();
     if (room < kRoomForButtons) {
