@@ -17,6 +17,9 @@ if [[ $CUTIS_TROUBLE == window:* ]]; then
     wait "$viewer" # its status is this script's
 fi
 press ctrl+s
-sleep 2
+# The left sphere, of many greys. Out of memory it need not come.
+sphere_shown() { [ "$(import -window "$window" -crop 60x60+350+250 -format '%k' info:- 2>/dev/null)" -gt 20 ]; }
+if [[ $CUTIS_TROUBLE == crash:* ]]; then until_true 60 "the picture" sphere_shown; fi
+sleep 1
 import -window "$window" "$folder/screen.png"
 close_viewer
