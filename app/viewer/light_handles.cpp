@@ -272,8 +272,14 @@ std::vector<LightHandle> lightHandles(const Session& session, const Camera& came
 
 void drawLightHandles(const Session& session, const Camera& camera, const std::vector<LightHandle>& handles,
                       int hovered) {
+    // Panels have no background of their own: what lies beside the picture must not show through them.
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const PixelRect& room = session.room;
+    draw.PushClipRect({float(room.x), float(room.y)},
+                      {float(room.x + room.width), float(room.y + room.height)});
     drawBeam(session, camera, handles, hovered);
     drawDots(session, handles, hovered);
+    draw.PopClipRect();
 }
 
 void dragLightHandle(Session& session, const Camera& camera, const LightHandle& handle, const ImVec2& by) {
