@@ -1,5 +1,5 @@
-// Hostile files, given to the program itself: each is refused in one line that names it, within 5 s of work and 1 GiB, and
-// leaves nothing behind. What the loaders refuse field by field is in unit_scene and unit_rig.
+// Hostile files, given to the program itself: each is refused in one line that names it, within 5 s of work
+// and 1 GiB, and leaves nothing behind. What the loaders refuse field by field is in unit_scene and unit_rig.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr double kMostSeconds = 5;                 // of processor time
+constexpr double kMostSeconds = 5;                // of processor time
 constexpr std::uint64_t kMostBytes = 1ull << 30;  // resident
 
 std::string bigEndian(std::uint32_t value) {
@@ -120,13 +120,17 @@ void cutSky(Where folder) {
 // An OpenEXR header (openexr.com, "File Layout") of a picture of 2^31 by 2^31.
 std::string endlessExr() {
     const auto attribute = [](const char* name, const char* type, const std::string& value) {
-        return std::string(name) + '\0' + type + '\0' + littleEndian(static_cast<std::uint32_t>(value.size())) + value;
+        return std::string(name) + '\0' + type + '\0' +
+               littleEndian(static_cast<std::uint32_t>(value.size())) + value;
     };
-    const std::string window = littleEndian(0) + littleEndian(0) + littleEndian(0x7ffffffe) + littleEndian(0x7ffffffe);
-    const std::string channel = std::string("R\0", 2) + littleEndian(2) + littleEndian(0) + littleEndian(1) + littleEndian(1);
+    const std::string window =
+        littleEndian(0) + littleEndian(0) + littleEndian(0x7ffffffe) + littleEndian(0x7ffffffe);
+    const std::string channel =
+        std::string("R\0", 2) + littleEndian(2) + littleEndian(0) + littleEndian(1) + littleEndian(1);
     return littleEndian(20000630) + littleEndian(2) + attribute("channels", "chlist", channel + '\0') +
-           attribute("compression", "compression", std::string(1, '\3')) + attribute("dataWindow", "box2i", window) +
-           attribute("displayWindow", "box2i", window) + attribute("lineOrder", "lineOrder", std::string(1, '\0')) +
+           attribute("compression", "compression", std::string(1, '\3')) +
+           attribute("dataWindow", "box2i", window) + attribute("displayWindow", "box2i", window) +
+           attribute("lineOrder", "lineOrder", std::string(1, '\0')) +
            attribute("pixelAspectRatio", "float", littleEndian(0x3f800000)) +
            attribute("screenWindowCenter", "v2f", littleEndian(0) + littleEndian(0)) +
            attribute("screenWindowWidth", "float", littleEndian(0x3f800000)) + '\0';
@@ -149,16 +153,29 @@ std::vector<Hostile> hostiles() {
         {"empty", bytesOf([](std::string& b) { b.clear(); }), {"scene.glb"}},
         {"cut_off", bytesOf([](std::string& b) { b.resize(b.size() / 2); }), {"scene.glb"}},
         {"length_lies", bytesOf([](std::string& b) { b.replace(8, 4, "\xff\xff\xff\xff"); }), {"scene.glb"}},
-        {"first_chunk_lies", bytesOf([](std::string& b) { b.replace(12, 4, "\xff\xff\xff\x7f"); }), {"scene.glb"}},
+        {"first_chunk_lies",
+         bytesOf([](std::string& b) { b.replace(12, 4, "\xff\xff\xff\x7f"); }),
+         {"scene.glb"}},
         {"first_chunk_is_no_json", bytesOf([](std::string& b) { b.replace(16, 4, "JUNK"); }), {"scene.glb"}},
         {"nested_without_end",
-         [](Where folder) { writeText(folder / "scene.glb", R"({"asset":{"version":"2.0"},"extras":)" + std::string(30'000'000, '[')); },
+         [](Where folder) {
+             writeText(folder / "scene.glb",
+                       R"({"asset":{"version":"2.0"},"extras":)" + std::string(30'000'000, '['));
+         },
          {"scene.glb"}},
-        {"zeros_without_end", glb([](Json& j) { j["accessors"][0].erase("bufferView"), j["accessors"][0]["count"] = 4'000'000'000u; }),
+        {"zeros_without_end",
+         glb([](Json& j) {
+             j["accessors"][0].erase("bufferView"), j["accessors"][0]["count"] = 4'000'000'000u;
+         }),
          {"scene.glb", "attributes.POSITION"}},
-        {"accessor_out_of_bounds", glb([](Json& j) { j["accessors"][0]["count"] = 4; }), {"scene.glb", "accessors[0]"}},
-        {"view_out_of_bounds", glb([](Json& j) { j["bufferViews"][0]["byteLength"] = 1u << 31; }), {"scene.glb", "bufferViews[0]"}},
-        {"cyclic_nodes", glb([](Json& j) { j["nodes"] = Json::parse(R"([{"children":[1],"mesh":0},{"children":[0]}])"); }),
+        {"accessor_out_of_bounds",
+         glb([](Json& j) { j["accessors"][0]["count"] = 4; }),
+         {"scene.glb", "accessors[0]"}},
+        {"view_out_of_bounds",
+         glb([](Json& j) { j["bufferViews"][0]["byteLength"] = 1u << 31; }),
+         {"scene.glb", "bufferViews[0]"}},
+        {"cyclic_nodes",
+         glb([](Json& j) { j["nodes"] = Json::parse(R"([{"children":[1],"mesh":0},{"children":[0]}])"); }),
          {"scene.glb", "nodes[0]"}},
         // A mesh of a million vertices in two thousand places.
         {"instances_without_end",
@@ -166,13 +183,16 @@ std::vector<Hostile> hostiles() {
              GltfFile file = triangleFile();
              std::vector<float> corners;
              for (int i = 0; i < 999'999; ++i) {
-                 corners.insert(corners.end(), {static_cast<float>(i % 3 == 1), static_cast<float>(i % 3 == 2), 1e-6f * static_cast<float>(i / 3)});
+                 corners.insert(corners.end(),
+                                {static_cast<float>(i % 3 == 1), static_cast<float>(i % 3 == 2),
+                                 1e-6f * static_cast<float>(i / 3)});
              }
              Json& primitive = file.json["meshes"][0]["primitives"][0];
              primitive.erase("indices");
              primitive["attributes"]["POSITION"] = file.addAccessor(corners, "VEC3", kFloat, 999'999);
              file.json["nodes"] = Json::array(), file.json["scenes"][0]["nodes"] = Json::array();
-             for (int i = 0; i < 2000; ++i) file.json["nodes"].push_back({{"mesh", 0}}), file.json["scenes"][0]["nodes"].push_back(i);
+             for (int i = 0; i < 2000; ++i)
+                 file.json["nodes"].push_back({{"mesh", 0}}), file.json["scenes"][0]["nodes"].push_back(i);
              file.saveGlb(folder);
          },
          {"scene.glb"}},
@@ -194,12 +214,20 @@ std::vector<Hostile> hostiles() {
         {"sky_without_end", beside("sky.exr", endlessExr()), {"sky.exr"}, sky},
         {"sky_of_zeros", beside("sky.exr", std::string(1 << 20, '\0')), {"sky.exr"}, sky},
         {"sky_that_lies",
-         beside("sky.exr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8192 +X 16384\n" + std::string(64, '\x7f')), {"sky.exr"}, sky},
-        {"rig_of_wrong_types", beside("a.rig.json", R"({"cutis_rig": 1, "lights": [{"type": "spot", "intensity": "much", "place": {}}]})"),
-         {"a.rig.json", "lights[0].intensity"}, rig},
+         beside("sky.exr",
+                "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8192 +X 16384\n" + std::string(64, '\x7f')),
+         {"sky.exr"},
+         sky},
+        {"rig_of_wrong_types",
+         beside("a.rig.json",
+                R"({"cutis_rig": 1, "lights": [{"type": "spot", "intensity": "much", "place": {}}]})"),
+         {"a.rig.json", "lights[0].intensity"},
+         rig},
         {"rig_nested_without_end", beside("a.rig.json", std::string(1'000'000, '[')), {"a.rig.json"}, rig},
         {"rig_of_zeros", beside("a.rig.json", std::string(1'000'000, '\0')), {"a.rig.json"}, rig},
-        {"scene_that_is_a_pipe", [](Where folder) { ASSERT_EQ(::mkfifo((folder / "scene.glb").c_str(), 0600), 0); }, {"scene.glb"}},
+        {"scene_that_is_a_pipe",
+         [](Where folder) { ASSERT_EQ(::mkfifo((folder / "scene.glb").c_str(), 0600), 0); },
+         {"scene.glb"}},
     };
 }
 
@@ -209,8 +237,9 @@ TEST_P(HostileFile, IsRefusedSoonAndLeavesNothing) {
     const TemporaryFolder folder;
     GetParam().write(folder.path());
     const std::vector<std::string> before = filesIn(folder.path());
-    std::vector<std::string> arguments = {"render", folder / "scene.glb", "--size", "32x18", "--device", "cpu",
-                                          "--stats", folder / "s.json",   "-o",     folder / "a.exr"};
+    std::vector<std::string> arguments = {
+        "render",  folder / "scene.glb", "--size", "32x18",         "--device", "cpu",
+        "--stats", folder / "s.json",    "-o",     folder / "a.exr"};
     for (std::string option : GetParam().options) {
         if (option.starts_with('@')) option.replace(0, 1, folder.path());
         arguments.push_back(option);
@@ -220,11 +249,12 @@ TEST_P(HostileFile, IsRefusedSoonAndLeavesNothing) {
     EXPECT_LE(run.cpuSeconds, kMostSeconds);
     EXPECT_LE(run.peakBytes, kMostBytes);
     EXPECT_EQ(filesIn(folder.path()), before);
-    std::printf("hostile: %-28s %4.0f MB, %.2f s: %s", GetParam().name, static_cast<double>(run.peakBytes) / 1e6, run.cpuSeconds,
-                run.err.c_str());
+    std::printf("hostile: %-28s %4.0f MB, %.2f s: %s", GetParam().name,
+                static_cast<double>(run.peakBytes) / 1e6, run.cpuSeconds, run.err.c_str());
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, HostileFile, testing::ValuesIn(hostiles()), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Table, HostileFile, testing::ValuesIn(hostiles()),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace cutis::test

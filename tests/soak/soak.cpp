@@ -161,8 +161,9 @@ int soak(int loads, int edits) {
         resident = residentMegabytes();
         if (load <= (loads + 1) / 2) half = std::max(half, resident);
         if (load % std::max(loads / 20, 1) == 0) {
-            std::printf("soak: %d loads, %d edits, %.1f MB resident, %.1f MB of heap, %.1f MB on the device\n", load,
-                        edited, resident, heapMegabytes(), static_cast<double>(session.deviceBytes()) / 1e6);
+            std::printf(
+                "soak: %d loads, %d edits, %.1f MB resident, %.1f MB of heap, %.1f MB on the device\n", load,
+                edited, resident, heapMegabytes(), static_cast<double>(session.deviceBytes()) / 1e6);
             std::fflush(stdout);
         }
     }

@@ -216,8 +216,7 @@ RenderJob between(double znear, double zfar) {
 std::vector<Extreme> worlds() {
     std::vector<Extreme> cases;
     const Expected still = rendered([] { return placed(1); });
-    cases.push_back(
-        {"planes_far_apart", [] { return between(1e-6, 1e9); }, {}, still, 1, 2e-3});
+    cases.push_back({"planes_far_apart", [] { return between(1e-6, 1e9); }, {}, still, 1, 2e-3});
     cases.push_back({"planes_close_together", [] { return between(0.4, 0.402); }});
     cases.back().leastPixels = 0;
     cases.push_back({"near_plane_through_the_body", [] { return between(0.45, 10); }});
@@ -229,14 +228,7 @@ std::vector<Extreme> worlds() {
                          1,
                          2e-3});
     }
-    cases.push_back({"a_kilometre_away",
-                     [] {
-                         return placed(1, {1e3, 0, 0});
-                     },
-                     {},
-                     still,
-                     1,
-                     2e-3});
+    cases.push_back({"a_kilometre_away", [] { return placed(1, {1e3, 0, 0}); }, {}, still, 1, 2e-3});
     cases.push_back({"a_thousand_kilometres_away",
                      [] {
                          return placed(1, {1e6, 1e6, 0});
@@ -245,14 +237,7 @@ std::vector<Extreme> worlds() {
                      still,
                      1,
                      2e-3});
-    cases.push_back({"negative_scale",
-                     [] {
-                         return placed(1, {}, {-1, 1, 1});
-                     },
-                     {},
-                     still,
-                     1,
-                     2e-3});
+    cases.push_back({"negative_scale", [] { return placed(1, {}, {-1, 1, 1}); }, {}, still, 1, 2e-3});
     cases.push_back({"nonuniform_scale", [] { return placed(1, {}, {1, 0.2, 1}); }});
     return cases;
 }

@@ -42,7 +42,8 @@ struct Extreme {
 
 void PrintTo(const Extreme& extreme, std::ostream* out);
 
-// Renders the case and checks all of it. Prints name, least and most radiance, error where something is known, and seconds.
+// Renders the case and checks all of it. Prints name, least and most radiance, error where something is
+// known, and seconds.
 void check(const Extreme& extreme);
 
 // A picture of 48 x 48 pixels, 0.21 m across, seen from +Z.

@@ -46,9 +46,7 @@ std::vector<Extreme> numbers() {
 
 std::vector<Extreme> intensities() {
     std::vector<Extreme> cases;
-    const Expected one = rendered([] {
-        return lit(directionalLight("key", {0, 0, -1}, 1));
-    });
+    const Expected one = rendered([] { return lit(directionalLight("key", {0, 0, -1}, 1)); });
     for (const int exponent : {-12, 12}) {
         const double factor = std::pow(10.0, exponent);
         cases.push_back({"intensity_1e" + std::to_string(exponent + 12),

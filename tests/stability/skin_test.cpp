@@ -111,13 +111,17 @@ Extreme wideFurnace(const std::string& name, const SkinMaterial& skin) {
     glm::dvec3 expected(0);
     for (const skin::Gaussian& g : skin.profile.gaussians)
         expected += g.weight * -std::expm1(-2 * 100 * 100 / (g.variance * skin.scale * skin.scale));
-    return {name, [skin] { return inUniformLight(sphereJob(skin)); }, {expected - kFurnace, expected + kFurnace}};
+    return {
+        name, [skin] { return inUniformLight(sphereJob(skin)); }, {expected - kFurnace, expected + kFurnace}};
 }
 
 // One Gaussian (mm²), the sphere lit from its side.
 Extreme sideLit(const std::string& name, double variance, double tolerance) {
     const SkinMaterial skin = skinOf(std::vector<double>{variance});
-    Extreme extreme{name, [skin] { return inLight(sphereJob(skin), {directionalLight("side", {-1, 0, 0}, std::numbers::pi)}); }};
+    Extreme extreme{
+        name, [skin] {
+            return inLight(sphereJob(skin), {directionalLight("side", {-1, 0, 0}, std::numbers::pi)});
+        }};
     const auto exact = std::make_shared<SphereDiffusion>(skin.profile, 100);
     extreme.exact = [exact](const glm::dvec3& normal) { return glm::dvec3((*exact)(normal.x, 0)); };
     extreme.tolerance = tolerance;
@@ -133,8 +137,9 @@ std::vector<Extreme> profiles() {
     }
     // The stiff case: one Gaussian far below a texel, the next wider than the body.
     cases.push_back(wideFurnace("eight_decades", skinOf({1e-4, 1e4})));
-    // Wide ones that nothing leads up to, seen as the light of one side spreads to the other. Far wider than the body light is
-    // even over it; in the atlas poles hold more texels than they have surface, and borders are not crossed all the way.
+    // Wide ones that nothing leads up to, seen as the light of one side spreads to the other. Far wider than
+    // the body light is even over it; in the atlas poles hold more texels than they have surface, and borders
+    // are not crossed all the way.
     cases.push_back(sideLit("side_lit_variance_1e2", 1e2, 0.01));
     cases.push_back(sideLit("side_lit_variance_1e4", 1e4, 0.2));
     cases.push_back(sideLit("side_lit_variance_1e6", 1e6, 0.35));

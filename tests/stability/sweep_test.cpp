@@ -19,8 +19,8 @@ using Json = nlohmann::json;
 
 constexpr double kTimeout = 550;  // seconds, of a machine that has much else to do: it works for 30
 
-// How far a case may be off in pictures of 16 x 16, most of whose error is at the rim: half as much again as it is. References go
-// by their standard error, not by time, so the figures are the same on any machine.
+// How far a case may be off in pictures of 16 x 16, most of whose error is at the rim: half as much again as
+// it is. References go by their standard error, not by time, so the figures are the same on any machine.
 struct Limit {
     double drift, error;
 };
@@ -52,8 +52,8 @@ TEST(Sweep, EveryCaseHolds) {
                    {"type": "point", "position": [-0.4, 0.1, 0.3], "intensity": 0.2}]})";
     const ProcessResult run =
         runProcess({CUTIS_PROGRAM, "measure", folder / "scene.glb", "--rig", folder / "test.rig.json",
-                    "--sweep", "stability", "--size", "16x16", "--error", "4%", "--repeats", "1",
-                    "--device", "cpu", "-o", folder / "out"},
+                    "--sweep", "stability", "--size", "16x16", "--error", "4%", "--repeats", "1", "--device",
+                    "cpu", "-o", folder / "out"},
                    {{"CUTIS_CACHE_DIR", CUTIS_TEST_CACHE_DIR}}, kTimeout);
     ASSERT_EQ(run.status, 0) << run.err;
     std::printf("%s", run.out.c_str());
