@@ -10,7 +10,7 @@ layout(binding = 1, scalar) readonly buffer LightViewBuffer { LightView lightVie
 #ifdef MASKED
 layout(binding = 2, scalar) readonly buffer AttributeBuffer { VertexAttributes attributes[]; };
 layout(location = 0) out vec4 outUv;
-layout(location = 1) out float outAlpha;
+layout(location = 1) out vec4 outColor;
 layout(location = 3) flat out uint outSurface;
 #endif
 #ifdef SKIN
@@ -28,7 +28,7 @@ layout(push_constant, scalar) uniform Push {
 void main() {
 #ifdef MASKED
     outUv = vec4(attributes[gl_VertexIndex].uv0, attributes[gl_VertexIndex].uv1);
-    outAlpha = attributes[gl_VertexIndex].color.a;
+    outColor = attributes[gl_VertexIndex].color;
     outSurface = gl_VertexIndex;
 #endif
 #ifdef SKIN

@@ -25,17 +25,17 @@ void main() {
     ivec2 local = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(local, push.tileSize))) return;
     uvec2 range = texelFetch(pixels, local, 0).xy;
-    vec3 diffuse = vec3(0.0), specular = vec3(0.0);
-    float coverage = 0.0, transmitted = 1.0;
+    vec3 diffuse = vec3(0.0), specular = vec3(0.0), transmitted = vec3(1.0);
+    float coverage = 0.0;
     for (uint i = range.x; i < range.x + range.y; ++i) {
         float weight = points[i].weight;
-        if (weight > 0.0) transmitted = 1.0;
+        if (weight > 0.0) transmitted = vec3(1.0);
         ShadedPoint point = shaded[i];
-        float a = abs(weight) * transmitted * point.alpha;
-        diffuse += point.diffuse * a;
-        specular += point.specular * a;
-        coverage += a;
-        transmitted *= 1.0 - point.alpha;
+        vec3 share = abs(weight) * transmitted;
+        diffuse += point.diffuse * share;
+        specular += point.specular * share;
+        coverage += dot(share * (1.0 - point.through), vec3(1.0 / 3.0));
+        transmitted *= point.through;
     }
     // Weights that sum to one in floats may miss it by a rounding.
     if (coverage > 1.0 - 1e-6) coverage = 1.0;

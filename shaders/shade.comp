@@ -1,6 +1,6 @@
 #version 460
 // The light that each shading point sends to the eye. SKIN takes its diffuse light from the exitance texture; everything
-// else is glTF metallic-roughness under the same lights and environment (DESIGN §1).
+// else is a glTF material under the same lights and environment (DESIGN §1).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
@@ -128,92 +128,23 @@ Triangle fetchTriangle(uint index) {
 
 struct Shade {
     vec3 diffuse, specular;  // radiance; what is emitted counts as diffuse
-    float alpha;
+    float alpha;             // coverage
+    vec3 through;            // share of the light from behind that passes what is covered
     vec3 normal, albedo, position, irradiance, atlas;  // atlas: x, y in texels, 1 on skin
     float thickness, depth;
     uint character;
 };
 
 #ifdef SKIN
-void shadeSkin(inout Shade shade, Material material, vec2 atlasTexel, float island, vec3 p, vec3 smoothNormal, vec3 n, vec3 view) {
-    // Facing away from the viewer by the normal map alone: the closest direction that is still seen.
-    float mu = max(dot(n, view), 1e-4);
-    AtlasLookup at = atlasLookup(exitance, surfaceNormal, atlasTexel, island, smoothNormal);
-    vec3 m = lookUp(exitance, at).rgb;
-    vec3 after = material.mix >= 1.0 ? vec3(1.0) : pow(shade.albedo, vec3(1.0 - material.mix));
-    float through = transmittedFraction(mu, material.specularScale, material.albedoRow) /
-                    max(1.0 - material.meanAlbedo, 1e-4);
-    shade.diffuse += after * m / kPi * through;
-#ifdef AOVS
-    shade.irradiance = lookUp(incident, at).rgb;
-    shade.atlas = vec3(atlasTexel, 1.0);
-    shade.thickness = texelFetch(incident, clamp(ivec2(atlasTexel), ivec2(0), textureSize(incident, 0) - 1), 0).a;
-#endif
-    float scale = clampedSpecularScale(material.specularScale, directionalAlbedo(mu, material.albedoRow));
-    float visible = 1.0;
-    uint current = 0xffffffffu;
-    for (uint i = 0u; i < push.lightCount; ++i) {
-        LightSampleData light = lights[i];
-        Incident from = incidentLight(light, p);
-        float cosine = dot(n, from.direction);
-#ifdef SHADOWS
-        // The share of each light that the irradiance pass found to arrive: of all its samples together.
-        if (light.light != current) {
-            current = light.light;
-            visible = lightShare(lightVisibility, at, int(current));
-        }
-#endif
-        if (cosine <= 0.0 || dot(smoothNormal, from.direction) <= 0.0) continue;
-        float lobe = kelemenSpecular(n, view, from.direction, material.slope);
-        shade.specular += from.irradiance * (cosine * scale * lobe * visible);
-    }
-#ifdef ENVIRONMENT
-    vec4 open = textureLod(openSky, atlasTexel / vec2(textureSize(exitance, 0)), 0.0);
-    setSky(open.a > 0.0 ? open.xyz / open.a : smoothNormal, smoothNormal);
-    shade.specular += environmentSpecularSkin(n, view, material.slope, material.specularScale, material.albedoRow);
-#endif
-}
-#endif
-
-#ifndef SKIN
-void shadeMetallicRoughness(inout Shade shade, DrawInfo draw, vec3 p, vec3 smoothNormal, vec3 n,
-                            vec3 view, float metallic, float alpha, float occlusion, vec3 share) {
-    vec3 f0 = mix(vec3(0.04), shade.albedo, metallic);
-    vec3 matte = shade.albedo * (1.0 - metallic);
-    float mu = max(dot(n, view), 1e-4);
-    for (uint i = 0u; i < push.lightCount; ++i) {
-        LightSampleData light = lights[i];
-        Incident from = incidentLight(light, p);
-        float cosine = dot(n, from.direction);
-        if (cosine <= 0.0 || dot(smoothNormal, from.direction) <= 0.0) continue;
-        float visible = 1.0;
-#ifdef SHADOWS
-        if ((light.flags & LIGHT_SHADOW) != 0u) {
-            visible = lightMapVisibility(lightViews[light.firstView + draw.receiverGroup], p, smoothNormal,
-                                         from.direction, light.radius, from.distance,
-                                         (light.flags & LIGHT_DIRECTIONAL) != 0u, true);
-        }
-#endif
-        vec3 e = from.irradiance * (cosine * visible);
-        shade.irradiance += e;
-        vec3 h = normalize(from.direction + view);
-        vec3 fresnel = schlick(f0, dot(view, h));
-        shade.diffuse += e * matte * (1.0 - fresnel) / kPi;
-        shade.specular += e * fresnel * ggxVisibilityDistribution(n, view, from.direction, h, alpha);
-    }
-#ifdef ENVIRONMENT
-    vec3 sky = environmentIrradianceAt(n) * share * occlusion;
-    shade.irradiance += sky;
-    shade.diffuse += sky * matte * (1.0 - schlick(f0, mu)) / kPi;
-    shade.specular += environmentSpecularGgx(n, view, alpha, f0) * occlusion;
-#endif
-}
-
+#include "lib/skin_surface.glsl"
+#else
+#include "lib/other_surface.glsl"
 #endif
 
 Shade shadeAt(uint triangleIndex, vec2 pixel) {
     Shade shade;
     shade.diffuse = shade.specular = shade.irradiance = shade.atlas = vec3(0.0);
+    shade.through = vec3(0.0);
     shade.thickness = 0.0;
     uint drawIndex = triangleDraws[triangleIndex];
     DrawInfo draw = draws[drawIndex];
@@ -232,7 +163,7 @@ Shade shadeAt(uint triangleIndex, vec2 pixel) {
 
     vec4 base = material.baseColor * interpolate(w, va.color, vb.color, vc.color);
     vec3 n = smoothNormal, emitted = material.emissive;
-    float metallic = material.metallic, roughness = material.roughness, occlusion = 1.0;
+    vec4 tangent = vec4(0.0);
 #if defined(TEXTURED) || !defined(SKIN)
     Ray rx = cameraRay(pixel + vec2(push.step, 0.0)), ry = cameraRay(pixel + vec2(0.0, push.step));
     vec3 wx = barycentricOnRay(triangle, rx.origin, rx.direction);
@@ -241,28 +172,19 @@ Shade shadeAt(uint triangleIndex, vec2 pixel) {
 #ifdef TEXTURED
     SurfaceUv uv = surfaceUv(w, wx, wy, va, vb, vc);
     if ((TEXTURE_SLOTS & SLOT_BASE_COLOR) != 0u && material.baseColorTexture.group >= 0) base *= sampleMaterial(material.baseColorTexture, uv);
-#ifndef SKIN
-    if ((TEXTURE_SLOTS & SLOT_METALLIC_ROUGHNESS) != 0u && material.metallicRoughnessTexture.group >= 0) {
-        vec4 t = sampleMaterial(material.metallicRoughnessTexture, uv);
-        roughness *= t.g;
-        metallic *= t.b;
+    if ((TEXTURE_SLOTS & SLOTS_OF_NORMALS) != 0u) {
+        tangent = interpolate(w, va.tangent, vb.tangent, vc.tangent);
+        if (back) tangent = -tangent;
     }
-#endif
     if ((TEXTURE_SLOTS & SLOT_NORMAL) != 0u && material.normalTexture.group >= 0) {
-        vec4 tangent = interpolate(w, va.tangent, vb.tangent, vc.tangent);
-        n = mappedNormal(smoothNormal, back ? -tangent : tangent, sampleMaterial(material.normalTexture, uv).xy,
-                         material.normalScale);
+        n = mappedNormal(smoothNormal, tangent, sampleMaterial(material.normalTexture, uv).xy, material.normalScale);
     }
 #ifndef SKIN
-    if ((TEXTURE_SLOTS & SLOT_OCCLUSION) != 0u && material.occlusionTexture.group >= 0) {
-        occlusion = 1.0 + material.occlusionStrength * (sampleMaterial(material.occlusionTexture, uv).r - 1.0);
-    }
+    uvHere = uv;
 #endif
     if ((TEXTURE_SLOTS & SLOT_EMISSIVE) != 0u && material.emissiveTexture.group >= 0) emitted *= sampleMaterial(material.emissiveTexture, uv).rgb;
 #endif
-    // A normal that looks away from the viewer, by interpolation or by the map, is bent back to the horizon.
-    float facing = dot(n, view);
-    if (facing < 0.02) n = safeNormalize(n + view * (0.02 - facing), smoothNormal);
+    n = facingNormal(n, view, smoothNormal);
 
     shade.alpha = (material.flags & MATERIAL_BLEND) != 0u ? clamp(base.a, 0.0, 1.0) : 1.0;
     shade.albedo = clamp(base.rgb, 0.0, 1.0);
@@ -291,10 +213,13 @@ Shade shadeAt(uint triangleIndex, vec2 pixel) {
     vec3 nx = interpolate(wx - w, va.normal, vb.normal, vc.normal);
     vec3 ny = interpolate(wy - w, va.normal, vb.normal, vc.normal);
     float spread = min(0.5 * (dot(nx, nx) + dot(ny, ny)), 0.18);
-    float alpha = clamp(roughness, 0.0, 1.0);
-    alpha = sqrt(clamp(alpha * alpha * alpha * alpha + spread, 0.0, 1.0));
-    shadeMetallicRoughness(shade, draw, p, smoothNormal, n, view, clamp(metallic, 0.0, 1.0), max(alpha, 1e-3),
-                           occlusion, share);
+    OtherSurface surface = otherSurface(material, shade.albedo, n, smoothNormal, tangent, view, spread);
+    OtherLight light = reflectedLight(surface, draw, p, smoothNormal, view, share);
+    shade.diffuse = light.diffuse;
+    shade.specular = light.specular;
+    shade.irradiance = light.irradiance;
+    shade.through = surface.through;
+    emitted *= 1.0 - surface.coat;
 #endif
     shade.diffuse += emitted;
     return shade;
@@ -330,7 +255,8 @@ void main() {
     ShadingPoint point = points[index];
     ivec2 pixel = push.tile + ivec2(point.pixel & 0xffffu, point.pixel >> 16);
     Shade shade = shadeAt(point.triangle, vec2(pixel) + unpackUnorm2x16(point.offset));
-    shaded[index] = ShadedPoint(shade.diffuse, shade.alpha, shade.specular);
+    shaded[index] = ShadedPoint(shade.diffuse * shade.alpha, shade.specular * shade.alpha,
+                                mix(vec3(1.0), shade.through, shade.alpha));
 #ifdef AOVS
     if ((list[i] & POINT_DATA) != 0u) storeAovs(pixel, shade);
 #endif

@@ -76,7 +76,9 @@ EntryPoint findEntry(LightView view, vec3 p, vec3 n, vec3 l, float rayScale, uin
         ivec3 texel = ivec3(clamp(base + offset, ivec2(0), size - 1), int(view.layer));
         float w = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
         uint packed = texelFetch(lightEntry, texel, 0).x;
-        if (packed == 0xffffffffu) {
+        // Behind a veil its light enters where neighbours see through it: how little of it does, the light there says.
+        if (packed == ENTRY_VEILED) continue;
+        if (packed == ENTRY_NONE) {
             // The nearest texel decides whether something that is not skin stands in the way.
             if (w > nearest) nearest = w, blocked = true;
             together = false;

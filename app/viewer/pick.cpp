@@ -76,9 +76,11 @@ std::optional<Hit> pick(const Scene& scene, const Ray& ray) {
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         if (scene.nodes[node].mesh < 0) continue;
         for (const Primitive& primitive :
-             scene.meshes[static_cast<std::size_t>(scene.nodes[node].mesh)].primitives)
-            if (scene.materials[static_cast<std::size_t>(primitive.material)].alphaMode == AlphaMode::opaque)
+             scene.meshes[static_cast<std::size_t>(scene.nodes[node].mesh)].primitives) {
+            const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+            if (material.alphaMode == AlphaMode::opaque && !material.seenThrough())
                 parts.push_back({static_cast<int>(node), &primitive});
+        }
     }
     std::vector<TriangleHit> hits(parts.size());
     parallelFor(parts.size(), [&](std::size_t i) {

@@ -17,10 +17,9 @@ std::uint64_t hashMaterials(const Scene& scene) {
     for (const Material& m : scene.materials) {
         hash.add(m.baseColor, m.metallic, m.roughness, m.normalScale, m.occlusionStrength, m.emissive, m.alphaMode,
                  m.alphaCutoff, m.doubleSided, m.unlit);
-        for (const TextureSlot* slot : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
-                                        &m.occlusionTexture, &m.emissiveTexture}) {
-            addSlot(hash, *slot);
-        }
+        hash.add(m.dielectric.ior, m.dielectric.specular, m.dielectric.specularColor, m.clearcoat.factor,
+                 m.clearcoat.roughness, m.clearcoat.normalScale, m.sheen.color, m.sheen.roughness, m.transmission);
+        for (const TextureSlot* slot : m.slots()) addSlot(hash, *slot);
     }
     return hash.value();
 }

@@ -25,9 +25,13 @@ Needs computeNeeds(const NeedsInput& input) {
     const bool skin = input.skinDraws > 0;
     set(Need::always, true, "every picture");
     set(Need::skin, skin && lit,
-        !skin ? "nothing is skin" : !lit ? "no light" : count(input.skinDraws, "piece") + " of skin");
+        !skin  ? "nothing is skin"
+        : !lit ? "no light"
+               : count(input.skinDraws, "piece") + " of skin");
     set(Need::litSkin, skin && lit,
-        !skin ? "nothing is skin" : !lit ? "no light reaches the skin" : "skin is lit");
+        !skin  ? "nothing is skin"
+        : !lit ? "no light reaches the skin"
+               : "skin is lit");
     const bool wholeSkin = input.chain == Chain::published;
     set(Need::hiddenSkin, skin && lit && input.prune && !input.anyView && !wholeSkin,
         !skin           ? "nothing is skin"
@@ -52,8 +56,11 @@ Needs computeNeeds(const NeedsInput& input) {
         : input.shadowedSamples == 0 ? "no light map to find thickness with"
                                      : materials);
     set(Need::oppositeSides, translucent && !fromLights,
-        !translucent ? "no skin is translucent" : fromLights ? "thickness comes from light maps" : materials);
-    set(Need::environment, input.environment, input.environment ? "an environment lights the scene" : "no environment");
+        !translucent ? "no skin is translucent"
+        : fromLights ? "thickness comes from light maps"
+                     : materials);
+    set(Need::environment, input.environment,
+        input.environment ? "an environment lights the scene" : "no environment");
     set(Need::skinSpecular, skin && lit && (input.shinySkinMaterials > 0 || !input.prune),
         !skin                          ? "nothing is skin"
         : !lit                         ? "no light"
@@ -63,8 +70,9 @@ Needs computeNeeds(const NeedsInput& input) {
         !skin             ? "nothing is skin"
         : !lit            ? "no light reaches the skin"
         : input.seams < 1 ? "no skin goes on beyond the border of its UV island"
-        : wholeSkin       ? "the published chain stops at the borders of UV islands"
-                          : count(static_cast<int>(input.seams), "edge") + " of UV islands beyond which skin goes on");
+        : wholeSkin
+            ? "the published chain stops at the borders of UV islands"
+            : count(static_cast<int>(input.seams), "edge") + " of UV islands beyond which skin goes on");
     set(Need::motion, skin && lit && (input.animations > 0 || !input.prune),
         !skin                  ? "nothing is skin"
         : !lit                 ? "no light"
@@ -73,14 +81,22 @@ Needs computeNeeds(const NeedsInput& input) {
     set(Need::transparency, input.blendedDraws > 0 || !input.prune,
         input.blendedDraws > 0 ? count(input.blendedDraws, "surface") + " seen through"
                                : "nothing is seen through: one layer of surfaces");
+    const auto setLayer = [&](Need need, int having, const char* has, const char* none) {
+        set(need, having > 0 || !input.prune, having > 0 ? count(having, "material") + has : none);
+    };
+    setLayer(Need::clearcoat, input.coatedMaterials, " with a clear coat", "no material has a clear coat");
+    setLayer(Need::sheen, input.sheenMaterials, " with a sheen", "no material has a sheen");
+    setLayer(Need::transmission, input.glassMaterials, " that light goes straight through",
+             "nothing is of glass");
     return needs;
 }
 
 std::vector<LeftOut> leftOutWithinRows(const Needs& needs) {
-    constexpr std::pair<Need, const char*> kParts[] = {{Need::translucency, "translucency"},
-                                                       {Need::areaLights, "area_lights"},
-                                                       {Need::skinSpecular, "skin_specular"},
-                                                       {Need::transparency, "transparency"}};
+    constexpr std::pair<Need, const char*> kParts[] = {
+        {Need::translucency, "translucency"},  {Need::areaLights, "area_lights"},
+        {Need::skinSpecular, "skin_specular"}, {Need::transparency, "transparency"},
+        {Need::clearcoat, "clearcoat"},        {Need::sheen, "sheen"},
+        {Need::transmission, "transmission"}};
     std::vector<LeftOut> parts;
     for (const auto& [need, name] : kParts) {
         if (!needs[need]) parts.push_back({name, needs.why(need)});
@@ -93,12 +109,14 @@ Plan makePlan(const Needs& needs) {
     std::set<Resource> written;
     for (const PassRow& row : passTable()) {
         if (!needs[row.need]) {
-            (row.phase == Phase::frame ? plan.leftOut : plan.leftOutBefore).push_back({row.name, needs.why(row.need)});
+            (row.phase == Phase::frame ? plan.leftOut : plan.leftOutBefore)
+                .push_back({row.name, needs.why(row.need)});
             continue;
         }
         for (Resource resource : row.reads) {
             if (!written.count(resource)) {
-                throw std::logic_error(std::string("pass ") + row.name + " reads what no pass before it writes");
+                throw std::logic_error(std::string("pass ") + row.name +
+                                       " reads what no pass before it writes");
             }
         }
         written.insert(row.writes.begin(), row.writes.end());

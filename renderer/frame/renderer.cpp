@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "renderer/core/error.h"
@@ -41,7 +42,16 @@ NeedsInput factsOf(const FrameContext& frame) {
     }
     for (const GeometryDraw& draw : frame.geometry.draws) {
         facts.skinDraws += draw.skin;
-        facts.blendedDraws += scene.materials[draw.material].alphaMode == AlphaMode::blend;
+        facts.blendedDraws += scene.materials[draw.material].seenThrough();
+    }
+    std::set<int> drawn;
+    for (const GeometryDraw& draw : frame.geometry.draws) drawn.insert(draw.material);
+    for (const int index : drawn) {
+        const Material& material = scene.materials[index];
+        if (!material.layered()) continue;
+        facts.coatedMaterials += material.clearcoat.factor > 0;
+        facts.sheenMaterials += material.sheen.color != glm::vec3(0);
+        facts.glassMaterials += material.transmission > 0;
     }
     facts.seams = frame.skinMesh.seams;
     for (const int material : skinMaterials(scene, frame.geometry)) {

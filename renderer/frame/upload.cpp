@@ -9,158 +9,12 @@
 #include "renderer/frame/frame.h"
 #include "renderer/frame/seam_map.h"
 #include "renderer/frame/stretch.h"
+#include "renderer/frame/upload_parts.h"
 #include "renderer/gpu/device.h"
 #include "renderer/passes/diffusion.h"
 #include "renderer/skin/energy.h"
-#include "renderer/skin/specular.h"
-#include "renderer/skin/specular_lobes.h"
 
 namespace cutis {
-namespace {
-
-template <class T>
-gpu::Buffer uploadBuffer(gpu::Device& device, gpu::Commands& commands, const char* name, const std::vector<T>& values,
-                         bool index = false) {
-    gpu::Buffer buffer(device, {.name = name, .bytes = values.size() * sizeof(T), .index = index});
-    if (!values.empty()) commands.upload(buffer, values);
-    return buffer;
-}
-
-// Place of a value in a list of distinct ones, appended when it is new.
-template <class T>
-std::size_t indexOf(std::vector<T>& list, const T& value) {
-    const auto known = std::find(list.begin(), list.end(), value);
-    if (known != list.end()) return static_cast<std::size_t>(known - list.begin());
-    list.push_back(value);
-    return list.size() - 1;
-}
-
-constexpr TextureSlot Material::*kSlots[] = {&Material::baseColorTexture, &Material::metallicRoughnessTexture,
-                                             &Material::normalTexture, &Material::occlusionTexture,
-                                             &Material::emissiveTexture};
-
-std::uint32_t usedSlots(const Scene& scene, const Geometry& geometry) {
-    std::uint32_t slots = 0;
-    for (const GeometryDraw& draw : geometry.draws) {
-        for (std::uint32_t i = 0; i < std::size(kSlots); ++i) {
-            if (scene.materials[draw.material].*kSlots[i]) slots |= 1u << i;
-        }
-    }
-    return slots;
-}
-
-shared::TextureRef textureRef(const TextureSlot& slot, const std::vector<TextureArrays::Place>& places) {
-    shared::TextureRef ref{};
-    ref.group = slot ? places[slot.texture].group : -1;
-    if (ref.group < 0) return ref;
-    ref.layer = places[slot.texture].layer;
-    ref.texCoord = slot.texCoord;
-    const glm::mat3 rows = glm::transpose(slot.transform);
-    ref.u = rows[0];
-    ref.v = rows[1];
-    return ref;
-}
-
-std::uint32_t flagsOf(const Material& material) {
-    std::uint32_t flags = 0;
-    if (material.skin) flags |= shared::MATERIAL_SKIN;
-    if (material.skin && material.skin->translucency) flags |= shared::MATERIAL_TRANSLUCENT;
-    if (material.unlit) flags |= shared::MATERIAL_UNLIT;
-    if (material.doubleSided) flags |= shared::MATERIAL_DOUBLE_SIDED;
-    if (material.alphaMode == AlphaMode::mask) flags |= shared::MATERIAL_MASK;
-    if (material.alphaMode == AlphaMode::blend) flags |= shared::MATERIAL_BLEND;
-    return flags;
-}
-
-float slopeOf(const SkinMaterial& skin) {
-    return static_cast<float>(std::max(skin.roughness, skin::kMinRoughness));
-}
-
-SkinSpecular layerOf(const SkinMaterial& skin) {
-    return {slopeOf(skin), static_cast<float>(skin.specular)};
-}
-
-shared::Material toShared(const Material& from, const std::vector<TextureArrays::Place>& places) {
-    shared::Material to{};
-    to.baseColor = from.baseColor;
-    to.emissive = from.emissive;
-    to.metallic = from.metallic;
-    to.roughness = from.roughness;
-    to.normalScale = from.normalScale;
-    to.occlusionStrength = from.occlusionStrength;
-    to.alphaCutoff = from.alphaCutoff;
-    to.flags = flagsOf(from);
-    to.baseColorTexture = textureRef(from.baseColorTexture, places);
-    to.metallicRoughnessTexture = textureRef(from.metallicRoughnessTexture, places);
-    to.normalTexture = textureRef(from.normalTexture, places);
-    to.occlusionTexture = textureRef(from.occlusionTexture, places);
-    to.emissiveTexture = textureRef(from.emissiveTexture, places);
-    return to;
-}
-
-std::vector<DrawRange> makeRanges(const Scene& scene, const Geometry& geometry, const SkinMesh& mesh,
-                                  const std::vector<TextureArrays::Place>& places) {
-    std::vector<DrawRange> ranges;
-    for (const GeometryDraw& draw : geometry.draws) {
-        const Material& material = scene.materials[draw.material];
-        DrawRange range;
-        range.firstIndex = draw.firstIndex;
-        range.indexCount = draw.indexCount;
-        range.firstProxyIndex = draw.firstProxyIndex;
-        range.proxyIndexCount = draw.proxyIndexCount;
-        range.material = static_cast<std::uint32_t>(draw.material);
-        range.skin = draw.skin;
-        range.blended = material.alphaMode == AlphaMode::blend;
-        range.doubleSided = material.doubleSided;
-        range.masked = material.alphaMode != AlphaMode::opaque;
-        range.closed = range.skin && !range.doubleSided && !range.masked;
-        range.sealed = range.closed && mesh.sealed[draw.character];
-        if (material.baseColorTexture) {
-            range.alphaGroup = static_cast<std::uint32_t>(places[material.baseColorTexture.texture].group);
-        }
-        // Textures and vertex colours only lower alpha.
-        const float needed = material.alphaMode == AlphaMode::mask ? material.alphaCutoff : 1.0f / 255;
-        if (range.masked && material.baseColor.a < needed) continue;
-        range.boundsMin = glm::vec3(draw.bounds.min - geometry.origin);
-        range.boundsMax = glm::vec3(draw.bounds.max - geometry.origin);
-        ranges.push_back(range);
-    }
-    return ranges;
-}
-
-}  // namespace
-
-std::vector<TextureUse> textureUses(const Scene& scene, const Geometry& geometry, bool prune) {
-    std::vector<TextureUse> uses(scene.textures.size(), TextureUse::none);
-    for (const GeometryDraw& draw : geometry.draws) {
-        const Material& material = scene.materials[draw.material];
-        for (const auto slot : kSlots) {
-            if (draw.skin && slot == &Material::metallicRoughnessTexture) continue;
-            if (!(material.*slot)) continue;
-            TextureUse& use = uses[(material.*slot).texture];
-            const bool normals = slot == &Material::normalTexture && use != TextureUse::values;
-            use = normals ? TextureUse::normals : TextureUse::values;
-        }
-    }
-    if (!prune) std::replace(uses.begin(), uses.end(), TextureUse::none, TextureUse::values);
-    return uses;
-}
-
-std::vector<int> skinMaterials(const Scene& scene, const Geometry& geometry) {
-    std::vector<int> materials;
-    std::vector<bool> seen(scene.materials.size(), false);
-    for (const GeometryDraw& draw : geometry.draws) {
-        if (draw.skin && !seen[draw.material]) materials.push_back(draw.material);
-        if (draw.skin) seen[draw.material] = true;
-    }
-    return materials;
-}
-
-std::vector<SkinSpecular> skinLayers(const Scene& scene, const Geometry& geometry) {
-    std::vector<SkinSpecular> layers;
-    for (const int material : skinMaterials(scene, geometry)) indexOf(layers, layerOf(*scene.materials[material].skin));
-    return layers;
-}
 
 skin::Profile profileOf(const Scene& scene, int material, int gaussians) {
     const SkinMaterial& skin = *scene.materials[material].skin;
@@ -302,41 +156,6 @@ void forgetTextures(FrameContext& frame) {
     frame.scene.buffers.textureArrays.clear();
 }
 
-// The materials, and the tables of the specular layer for each distinct roughness of skin.
-void uploadMaterials(FrameContext& frame) {
-    const Scene& scene = *frame.input->scene;
-    std::vector<shared::Material> materials;
-    for (const Material& material : scene.materials) materials.push_back(toShared(material, frame.scene.texturePlaces));
-    std::vector<SkinSpecular> layers;
-    std::vector<float> roughness;
-    std::vector<std::vector<float>> rows;
-    for (const int index : skinMaterials(scene, frame.geometry)) {
-        const SkinMaterial& skin = *scene.materials[index].skin;
-        shared::Material& to = materials[index];
-        const std::size_t row = indexOf(roughness, slopeOf(skin));
-        if (row == rows.size()) rows.push_back(skin::directionalAlbedoRow(slopeOf(skin)));
-        to.slope = slopeOf(skin);
-        to.specularScale = static_cast<float>(skin.specular);
-        to.mix = static_cast<float>(skin.mix);
-        to.mmPerUnit = static_cast<float>(skin.mmPerUnit);
-        to.meanAlbedo = static_cast<float>(skin::meanAlbedo(rows[row], skin.specular));
-        to.albedoRow = static_cast<std::uint32_t>(row);
-        to.matteLayer = static_cast<std::uint32_t>(indexOf(layers, layerOf(skin)));
-    }
-    std::vector<float> table;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const std::vector<float> lobes = skin::specularLobeTable(roughness[i]);
-        table.insert(table.end(), rows[i].begin(), rows[i].end());
-        table.insert(table.end(), lobes.begin(), lobes.end());
-    }
-    SceneBuffers& buffers = frame.scene.buffers;
-    buffers.materials = uploadBuffer(*frame.device, *frame.commands, "materials", materials);
-    buffers.albedoTable = uploadBuffer(*frame.device, *frame.commands, "directional albedo", table);
-    buffers.textureSlots = usedSlots(scene, frame.geometry);
-    buffers.seenThrough = frame.needs[Need::transparency];
-    buffers.skinShines = frame.needs[Need::skinSpecular];
-}
-
 // The layout is that of the scene at rest, whatever pose it is in: texels stay on the skin while it moves.
 void makeLayout(FrameContext& frame) {
     const AtlasOptions options{.size = frame.settings->irradianceSize,
@@ -373,10 +192,6 @@ void forgetLayout(FrameContext& frame) {
 void uploadDraws(FrameContext& frame) {
     frame.scene.draws = frame.geometry.drawInfos;
     frame.scene.buffers.draws = uploadBuffer(*frame.device, *frame.commands, "draws", frame.scene.draws);
-}
-
-void findDrawRanges(FrameContext& frame) {
-    frame.scene.buffers.ranges = makeRanges(*frame.input->scene, frame.geometry, frame.skinMesh, frame.scene.texturePlaces);
 }
 
 void uploadProfiles(FrameContext& frame) {

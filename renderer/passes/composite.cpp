@@ -65,14 +65,14 @@ void drawRange(gpu::Device& device, gpu::Commands& commands, const SceneBuffers&
     if (!range.doubleSided) state.cull = VK_CULL_MODE_BACK_BIT;
     std::string vertex = "view.vert", fragment = "view.frag";
     gpu::Bindings bindings{{"PositionBuffer", scene.positions}, {"CameraBuffer", camera}};
-    if (range.masked && !range.blended) {
+    if (range.cutOut) {
         vertex += "+MASKED";
         fragment += "+MASKED";
         bindings.push_back({"AttributeBuffer", scene.attributes});
         bindings.push_back({"MaterialBuffer", scene.materials});
     }
     gpu::Specialization constants;
-    if (range.masked && !range.blended && scene.textured()) {
+    if (range.cutOut && scene.textured()) {
         fragment += "+TEXTURED";
         bindings.push_back({"materialTextures", scene.materialTextures});
         constants = {{0, scene.textureGroups}, {2, range.alphaGroup}};
@@ -252,8 +252,10 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
         const auto layer = static_cast<std::uint32_t>(target.aovLayer[i]) & 15u;
         (i < 8 ? push.aovLayers0 : push.aovLayers1) |= layer << (i % 8 * 4);
     }
-    const gpu::Program& program =
-        scene.textured() ? device.program(shader, scene.textureConstants()) : device.program(shader);
+    gpu::Specialization constants;
+    if (scene.textured()) constants = scene.textureConstants();
+    if (!skin) constants.push_back({3, scene.layers});
+    const gpu::Program& program = device.program(shader, constants);
     commands.dispatchIndirect(program, bindings, push, buffers.groups, skin ? 0 : 12);
 }
 

@@ -52,7 +52,7 @@ std::vector<Batch> batchesFor(const SceneBuffers& scene, const LightMapTargets& 
                               const shared::LightView& view) {
     std::vector<Batch> batches;
     for (const DrawRange& range : scene.ranges) {
-        if (!reaches(view.worldToClip, range.boundsMin, range.boundsMax)) continue;
+        if (range.clear || !reaches(view.worldToClip, range.boundsMin, range.boundsMax)) continue;
         const bool skin = targets.entry && range.skin;
         const std::uint32_t first = targets.proxies ? range.firstProxyIndex : range.firstIndex;
         const std::uint32_t count = targets.proxies ? range.proxyIndexCount : range.indexCount;

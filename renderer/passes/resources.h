@@ -24,8 +24,10 @@ struct DrawRange {
     std::uint32_t firstProxyIndex = 0, proxyIndexCount = 0;  // a coarser form in proxyIndices, for the sky's shadows
     std::uint32_t material = 0;
     bool skin = false;     // takes light in
-    bool masked = false;   // its material's alpha cuts it out or lets light through
+    bool cutOut = false;   // its material's alpha cuts it out
     bool blended = false;  // seen through
+    bool masked = false;   // either: light maps ask its material what it stops
+    bool clear = false;    // stops no light that would be worth a map
     bool doubleSided = false;
     bool closed = false;  // skin that bounds flesh: no light passes one side without meeting the other
     bool sealed = false;  // and all round, without an open edge: light from outside meets a side that faces it first
@@ -53,6 +55,7 @@ struct SceneBuffers {
     std::vector<DrawRange> ranges;
     bool seenThrough = true;  // some range may be blended
     bool skinShines = true;   // some skin may have a specular layer
+    std::uint32_t layers = 0;  // LAYER_ bits, specialization constant 3 of what shades all else
     std::uint32_t textureGroups = 0,
                   textureSlots = 0;  // specialization constants 0 and 1 of what samples textures
     gpu::Specialization textureConstants() const { return {{0, textureGroups}, {1, textureSlots}}; }

@@ -9,7 +9,7 @@ namespace cutis::reference {
 namespace {
 
 // Changes whenever the same input gives other numbers than before.
-constexpr std::uint32_t kEstimatorVersion = 5;
+constexpr std::uint32_t kEstimatorVersion = 6;
 
 class Hash {
   public:
@@ -42,14 +42,14 @@ void addSlot(Hash& hash, const Scene& scene, const TextureSlot& slot) {
 void addMaterial(Hash& hash, const Scene& scene, const Material& m) {
     hash.add(m.baseColor, m.metallic, m.roughness, m.normalScale, m.occlusionStrength, m.emissive,
              m.alphaMode, m.alphaCutoff, m.doubleSided, m.unlit);
-    for (const TextureSlot* slot : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
-                                    &m.occlusionTexture, &m.emissiveTexture}) {
-        addSlot(hash, scene, *slot);
-    }
+    hash.add(m.dielectric.ior, m.dielectric.specular, m.dielectric.specularColor, m.clearcoat.factor,
+             m.clearcoat.roughness, m.clearcoat.normalScale, m.sheen.color, m.sheen.roughness, m.transmission);
+    for (const TextureSlot* slot : m.slots()) addSlot(hash, scene, *slot);
     hash.add(m.skin.has_value());
     if (!m.skin) return;
     const SkinMaterial& s = *m.skin;
-    hash.add(s.scale, s.mix, s.roughness, s.specular, s.translucency, s.mmPerUnit);
+    hash.add(s.scale, s.mix, s.roughness, s.specular, s.translucency, s.mmPerUnit, s.lobeWeight, s.lobeRatio,
+             s.detail, s.detailScale);
     for (const skin::Gaussian& g : s.profile.gaussians) hash.add(g.variance, g.weight);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/core/parallel.h"
+#include "renderer/reference/layers.h"
 #include "renderer/scene/light_samples.h"
 
 namespace cutis::reference {
@@ -30,8 +31,10 @@ double thicknessTowards(const LightSample& light, const SurfacePoint& point, con
     std::vector<Hit> hits;
     const glm::dvec3 inside = point.position - point.smooth * rays.clearance(point.position);
     rays.findAll(inside, l, light.directional ? INFINITY : glm::length(towards), hits);
-    std::erase_if(hits,
-                  [](const Hit& hit) { return hit.mesh->alphaAt(hit.triangle, hit.u, hit.v) < kSolid; });
+    std::erase_if(hits, [](const Hit& hit) {
+        const glm::dvec3 passed = lightThrough(hit, 1);
+        return (passed.r + passed.g + passed.b) / 3 > 1 - kSolid;
+    });
     const auto first =
         std::max_element(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.t < b.t; });
     if (first == hits.end() || !first->mesh->skin || first->mesh->character != point.mesh->character)
@@ -61,7 +64,7 @@ std::optional<PixelPoint> findPixelPoint(const RayScene& rays, const View& view,
         const ViewRay ray = view.rayThrough(glm::dvec2(x, y) + place);
         rays.findVisible(ray.from, ray.direction, ray.tNear, ray.tFar, hits);
         if (hits.empty()) continue;
-        const bool solid = hits.back().mesh->material->alphaMode != AlphaMode::blend;
+        const bool solid = !hits.back().mesh->material->seenThrough();
         seen.push_back({{solid ? hits.back() : hits.front(), -ray.direction}, place, solid});
     }
     const bool solid = std::any_of(seen.begin(), seen.end(), [](const Seen& s) { return s.solid; });

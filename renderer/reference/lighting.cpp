@@ -45,8 +45,8 @@ double Lobe::pdf(const glm::dvec3& n, const glm::dvec3& direction) const {
            (2 * length);
 }
 
-double Lighting::visibility(const SurfacePoint& point, const LightPoint& light) const {
-    if (!light.shadow) return 1;
+glm::dvec3 Lighting::visibility(const SurfacePoint& point, const LightPoint& light) const {
+    if (!light.shadow) return glm::dvec3(1);
     if (std::isinf(light.distance)) {
         return rays_->transmittance(point.outside, light.direction, std::numeric_limits<double>::infinity());
     }
@@ -79,8 +79,9 @@ void Lighting::gatherLights(const SurfacePoint& point, const glm::dvec3& n, cons
         // The second number of `depth` is no one else's.
         if (asked < 1 && random.pair(static_cast<std::uint32_t>(kFirstLight + 2 * i + 1)).y >= asked)
             continue;
-        const double visible = visibility(point, light);
-        if (visible > 0) incident.push_back({light.direction, light.irradiance * (visible / asked), false});
+        const glm::dvec3 visible = visibility(point, light);
+        if (brightest(visible) > 0)
+            incident.push_back({light.direction, light.irradiance * visible / asked, false});
     }
 }
 
@@ -93,11 +94,11 @@ void Lighting::gatherLobe(const SurfacePoint& point, const glm::dvec3& n, const 
     for (std::size_t i = 0; i < lights_.count(); ++i) {
         const auto light = lights_.find(i, point.outside, direction);
         if (!light || !(light->pdf > 0)) continue;
-        const double visible = visibility(point, *light);
-        if (!(visible > 0)) continue;
+        const glm::dvec3 visible = visibility(point, *light);
+        if (!(brightest(visible) > 0)) continue;
         // Radiance is irradiance · pdf of the light's own sampling.
         incident.push_back(
-            {direction, light->irradiance * (light->pdf * cosine * visible / (light->pdf + pdf)), false});
+            {direction, light->irradiance * visible * (light->pdf * cosine / (light->pdf + pdf)), false});
     }
 }
 
@@ -121,9 +122,10 @@ void Lighting::gatherEnvironment(const SurfacePoint& point, const glm::dvec3& n,
     const double pdf =
         lightShare * sky.pdf + cosineShare * cosine / kPi + (lobe ? lobeShare * lobe->pdf(n, direction) : 0);
     if (!(pdf > 0) || !(brightest(sky.radiance) > 0)) return;
-    const double visible =
+    const glm::dvec3 visible =
         rays_->transmittance(point.outside, direction, std::numeric_limits<double>::infinity());
-    if (visible > 0) incident.push_back({direction, sky.radiance * (cosine * visible / pdf), true});
+    if (brightest(visible) > 0)
+        incident.push_back({direction, sky.radiance * visible * (cosine / pdf), true});
 }
 
 void Lighting::gather(const SurfacePoint& point, const glm::dvec3& n, const Lobe* lobe,

@@ -48,7 +48,7 @@ class Lighting {
                     std::vector<Incident>& incident) const;
     void gatherEnvironment(const SurfacePoint& point, const glm::dvec3& n, const Lobe* lobe,
                            const RandomNumbers& random, std::vector<Incident>& incident) const;
-    double visibility(const SurfacePoint& point, const LightPoint& light) const;
+    glm::dvec3 visibility(const SurfacePoint& point, const LightPoint& light) const;
 
     const RayScene* rays_;
     LightSampler lights_;

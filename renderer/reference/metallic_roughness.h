@@ -1,5 +1,5 @@
 // What is not skin: glTF's metallic-roughness model (glTF 2.0, appendix B) with GGX, height-correlated Smith
-// masking and Schlick's Fresnel. In double; shaders/lib/metallic_roughness.glsl is the twin.
+// masking. In double; shaders/lib/metallic_roughness.glsl is the twin.
 #pragma once
 
 #include <algorithm>
@@ -22,11 +22,6 @@ inline double ggx(const glm::dvec3& n, const glm::dvec3& v, const glm::dvec3& l,
     const double nl = std::max(glm::dot(n, l), 1e-4), nv = std::max(glm::dot(n, v), 1e-4), a2 = alpha * alpha;
     const double smith = nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2);
     return ggxDistribution(glm::dot(n, h), alpha) * 0.5 / smith;
-}
-
-inline glm::dvec3 schlick(const glm::dvec3& f0, double cosine) {
-    const double x = std::clamp(1 - cosine, 0.0, 1.0), x2 = x * x;
-    return f0 + (1.0 - f0) * (x2 * x2 * x);
 }
 
 }  // namespace cutis::reference

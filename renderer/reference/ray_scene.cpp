@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "renderer/core/error.h"
+#include "renderer/reference/layers.h"
 
 namespace cutis::reference {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 struct FilterContext {
     RTCIntersectContext embree;
     std::vector<Hit>* hits = nullptr;
-    double transmittance = 1;
+    glm::dvec3 transmittance{1};
 };
 
 // Light weaker than this is none.
@@ -32,10 +33,22 @@ Hit hitOf(const RTCFilterFunctionNArguments* arguments) {
             1};
 }
 
-bool facesAway(const RTCFilterFunctionNArguments* arguments) {
+// Between the ray and the triangle's normal, which has the length of its area.
+double normalAlongRay(const RTCFilterFunctionNArguments* arguments) {
     const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
     const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
-    return hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z >= 0;
+    return hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z;
+}
+
+bool facesAway(const RTCFilterFunctionNArguments* arguments) {
+    return normalAlongRay(arguments) >= 0;
+}
+
+// Of a ray of unit direction.
+double cosineOf(const RTCFilterFunctionNArguments* arguments) {
+    const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
+    const double length = glm::length(glm::dvec3(hit->Ng_x, hit->Ng_y, hit->Ng_z));
+    return length > 0 ? std::min(std::abs(normalAlongRay(arguments)) / length, 1.0) : 0;
 }
 
 // The camera's: leaves out what is not there, keeps aside what is seen through, lets the nearest of the rest
@@ -46,11 +59,11 @@ void filterVisible(const RTCFilterFunctionNArguments* arguments) {
         arguments->valid[0] = 0;
         return;
     }
-    if (hit.mesh->material->alphaMode == AlphaMode::opaque) return;
+    if (hit.mesh->material->alphaMode == AlphaMode::opaque && !hit.mesh->material->seenThrough()) return;
     hit.alpha = hit.mesh->alphaAt(hit.triangle, hit.u, hit.v);
     if (hit.mesh->material->alphaMode == AlphaMode::mask) {
         if (hit.alpha == 0) arguments->valid[0] = 0;
-        return;
+        if (hit.alpha == 0 || !hit.mesh->material->seenThrough()) return;
     }
     arguments->valid[0] = 0;
     if (hit.alpha > 0) reinterpret_cast<FilterContext*>(arguments->context)->hits->push_back(hit);
@@ -58,9 +71,9 @@ void filterVisible(const RTCFilterFunctionNArguments* arguments) {
 
 void filterShadow(const RTCFilterFunctionNArguments* arguments) {
     const Hit hit = hitOf(arguments);
-    double& transmittance = reinterpret_cast<FilterContext*>(arguments->context)->transmittance;
-    transmittance *= 1 - hit.mesh->alphaAt(hit.triangle, hit.u, hit.v);
-    if (transmittance > kOpaque) arguments->valid[0] = 0;
+    glm::dvec3& transmittance = reinterpret_cast<FilterContext*>(arguments->context)->transmittance;
+    transmittance *= lightThrough(hit, cosineOf(arguments));
+    if (std::max({transmittance.r, transmittance.g, transmittance.b}) > kOpaque) arguments->valid[0] = 0;
 }
 
 void collectHit(const RTCFilterFunctionNArguments* arguments) {
@@ -140,7 +153,7 @@ RayScene::RayScene(const PlacedScene& placed, bool through)
     s.visible = newScene(s.device);
     if (through) s.all = newScene(s.device);
     for (const PlacedMesh& mesh : placed.meshes) {
-        const bool opaque = mesh.material->alphaMode == AlphaMode::opaque;
+        const bool opaque = mesh.material->alphaMode == AlphaMode::opaque && !mesh.material->seenThrough();
         attach(s.device, s.visible, mesh, opaque && mesh.material->doubleSided ? nullptr : filterVisible,
                opaque ? nullptr : filterShadow);
         if (through) attach(s.device, s.all, mesh, collectHit, nullptr);
@@ -176,12 +189,12 @@ void RayScene::findVisible(const glm::dvec3& from, const glm::dvec3& direction, 
     std::stable_sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.t < b.t; });
 }
 
-double RayScene::transmittance(const glm::dvec3& from, const glm::dvec3& direction, double tFar) const {
+glm::dvec3 RayScene::transmittance(const glm::dvec3& from, const glm::dvec3& direction, double tFar) const {
     FilterContext context;
     rtcInitIntersectContext(&context.embree);
     RTCRay ray = rayOf(from, direction, 0, tFar);
     rtcOccluded1(scenes_->visible, &context.embree, &ray);
-    return ray.tfar < 0 ? 0 : context.transmittance;
+    return ray.tfar < 0 ? glm::dvec3(0) : context.transmittance;
 }
 
 void RayScene::findSkin(int character, const glm::dvec3& from, const glm::dvec3& direction, double tFar,

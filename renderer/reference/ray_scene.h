@@ -31,8 +31,9 @@ class RayScene {
                      std::vector<Hit>& hits) const;
 
     // The share of light that gets from one end to the other of from + t·direction, 0 < t < tFar: 0 behind
-    // anything opaque, and the product of 1 - α of what is seen through. Light and eye see hair alike.
-    double transmittance(const glm::dvec3& from, const glm::dvec3& direction, double tFar) const;
+    // anything opaque, and the product of lightThrough() of what is seen through. Light and eye see hair alike.
+    // `direction` is of unit length.
+    glm::dvec3 transmittance(const glm::dvec3& from, const glm::dvec3& direction, double tFar) const;
 
     // Every point where the segment from + t·direction, 0 ≤ t ≤ tFar, meets the skin of a character, into
     // `hits`, in no stated order.

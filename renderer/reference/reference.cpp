@@ -142,24 +142,33 @@ void Evaluation::addSample(int x, int y, const RandomNumbers& random, SampleSum&
     thread_local std::vector<Hit> hits;
     const ViewRay ray = view_.rayThrough(glm::dvec2(x, y) + random.pair(kPixelPlace));
     rays_.findVisible(ray.from, ray.direction, ray.tNear, ray.tFar, hits);
-    double transmitted = 1;
+    glm::dvec3 transmitted(1);
     for (std::size_t i = 0; i < hits.size(); ++i) {
         // Of what is not blended everything that is there is opaque.
         const bool blended = hits[i].mesh->material->alphaMode == AlphaMode::blend;
-        const double alpha = blended ? hits[i].alpha : 1, weight = transmitted * alpha;
-        transmitted *= 1 - alpha;
-        sum.coverage += static_cast<float>(weight);
+        const double alpha = blended ? hits[i].alpha : 1;
+        const glm::dvec3 weight = transmitted * alpha;
+        const double heaviest = std::max({weight.r, weight.g, weight.b});
         const RandomNumbers own = random.branch(static_cast<std::uint32_t>(i));
-        const double shaded = std::min(1.0, weight / kShadedWeight);
-        if (shaded < 1 && own.pair(kRoulette).x >= shaded) continue;
-        const Shade shade = shading_.shade(hits[i], -ray.direction, own.branch(0));
+        // Glass must be shaded for what it lets through.
+        const bool glass = hits[i].mesh->material->layered() && hits[i].mesh->material->transmission > 0;
+        const double shaded = glass ? 1.0 : std::min(1.0, heaviest / kShadedWeight);
+        Shade shade;
+        const bool drawn = shaded >= 1 || own.pair(kRoulette).x < shaded;
+        if (drawn) shade = shading_.shade(hits[i], -ray.direction, own.branch(0));
+        const glm::dvec3 passed = transmitted * (1.0 - alpha + alpha * shade.through),
+                         kept = transmitted - passed;
+        sum.coverage += static_cast<float>((kept.r + kept.g + kept.b) / 3);
+        transmitted = passed;
+        if (!drawn) continue;
         if (!finite(shade.diffuse) || !finite(shade.specular)) {
             ++nonfinite_;
             continue;
         }
         for (int c = 0; c < 3; ++c) {
-            sum.diffuse[c] += static_cast<float>(shade.diffuse[c] * (weight / shaded));
-            sum.picture[c] += static_cast<float>((shade.diffuse[c] + shade.specular[c]) * (weight / shaded));
+            const double share = weight[c] / shaded;
+            sum.diffuse[c] += static_cast<float>(shade.diffuse[c] * share);
+            sum.picture[c] += static_cast<float>((shade.diffuse[c] + shade.specular[c]) * share);
         }
     }
 }

@@ -3,15 +3,20 @@
 #include <algorithm>
 
 #include "renderer/reference/directions.h"
+#include "renderer/reference/layers.h"
 #include "renderer/reference/metallic_roughness.h"
 
 namespace cutis::reference {
 namespace {
 
-enum Part : std::uint32_t { kReflected, kDiffused };
+enum Part : std::uint32_t { kReflected, kDiffused, kCoated };
 
-constexpr double kHorizon = 0.02;     // least cosine between shading normal and view
-constexpr double kLeastAlpha = 1e-3;  // of GGX
+constexpr double kHorizon = 0.02;  // least cosine between shading normal and view
+
+glm::dvec3 facing(const glm::dvec3& normal, const glm::dvec3& view, const glm::dvec3& smooth) {
+    const double cosine = glm::dot(normal, view);
+    return cosine < kHorizon ? safeNormalize(normal + view * (kHorizon - cosine), smooth) : normal;
+}
 
 }  // namespace
 
@@ -20,9 +25,7 @@ SurfacePoint seenPoint(const RayScene& rays, const Hit& hit, const glm::dvec3& v
     const bool back = glm::dot(point.face, view) < 0;
     if (back) point = surfaceAt(rays, hit, true);
     readTextures(point, hit, back);
-    const double facing = glm::dot(point.normal, view);
-    if (facing < kHorizon)
-        point.normal = safeNormalize(point.normal + view * (kHorizon - facing), point.smooth);
+    point.normal = facing(point.normal, view, point.smooth);
     return point;
 }
 
@@ -47,33 +50,54 @@ Shade Shading::shadeSkin(const SurfacePoint& point, const glm::dvec3& view,
 Shade Shading::shadeOther(const Hit& hit, const SurfacePoint& point, const glm::dvec3& view,
                           const RandomNumbers& random) const {
     const Material& material = *point.material;
-    const glm::dvec4 texel = textureAt(hit, material.metallicRoughnessTexture);
-    const double metallic = std::clamp(material.metallic * texel.b, 0.0, 1.0);
-    const double roughness = std::clamp(material.roughness * texel.g, 0.0, 1.0);
-    const double alpha = std::max(roughness * roughness, kLeastAlpha);
-    const double occlusion =
-        1 + material.occlusionStrength * (textureAt(hit, material.occlusionTexture).r - 1);
-    const glm::dvec3 albedo = albedoOf(point), f0 = glm::mix(glm::dvec3(0.04), albedo, metallic);
-    const glm::dvec3 matte = albedo * (1 - metallic);
+    const Layers layers = layersAt(hit, point.base);
+    const double mu = glm::dot(point.normal, view);
+    const glm::dvec3 matte = layers.albedo * ((1 - layers.metallic) * (1 - layers.transmission));
     thread_local std::vector<Incident> incident;
-    const Lobe lobe{true, alpha, view};
+    const Lobe lobe{true, layers.alpha, view};
     lighting_->gather(point, point.normal, &lobe, random.branch(kReflected), incident);
     Shade shade;
+    glm::dvec3 sheen(0);
     for (const Incident& from : incident) {
         const glm::dvec3 h = safeNormalize(from.direction + view, point.normal);
-        const glm::dvec3 fresnel = schlick(f0, glm::dot(view, h));
-        const glm::dvec3 e = from.irradiance * (from.environment ? occlusion : 1.0);
-        shade.diffuse += e * matte * (1.0 - fresnel) / kPi;
-        shade.specular += e * fresnel * ggx(point.normal, view, from.direction, h, alpha);
+        const double vh = glm::dot(view, h);
+        const glm::dvec3 e = from.irradiance * (from.environment ? layers.occlusion : 1.0);
+        shade.diffuse += e * matte * (layers.belowFresnel(vh) / kPi);
+        shade.specular += e * layers.fresnel(vh) * ggx(point.normal, view, from.direction, h, layers.alpha);
+        if (layers.sheen == glm::dvec3(0)) continue;
+        sheen += e * layers.sheen * sheenLobe(point.normal, view, from.direction, layers.sheenRoughness);
     }
+    const double below = layers.belowSheen(mu);
+    shade.diffuse *= below;
+    shade.specular = shade.specular * below + sheen;
+    shade.diffuse += glm::dvec3(material.emissive) * glm::dvec3(textureAt(hit, material.emissiveTexture));
+
+    const bool back = glm::dot(surfaceAt(*rays_, hit).face, point.face) < 0;
+    const glm::dvec3 coatNormal = facing(mappedNormal(hit, material.clearcoat.normalTexture,
+                                                      material.clearcoat.normalScale, point.smooth, back),
+                                         view, point.smooth);
+    const double coatMu = glm::dot(coatNormal, view), coat = layers.coatReflection(coatMu);
+    shade.through = layers.through(mu, coatMu);
+    if (!(coat > 0)) return shade;
+    glm::dvec3 reflected(0);
+    const Lobe coatLobe{true, layers.coatAlpha, view};
+    lighting_->gather(point, coatNormal, &coatLobe, random.branch(kCoated), incident);
+    for (const Incident& from : incident) {
+        const glm::dvec3 h = safeNormalize(from.direction + view, coatNormal);
+        reflected += from.irradiance * (ggx(coatNormal, view, from.direction, h, layers.coatAlpha) *
+                                        (from.environment ? layers.occlusion : 1.0));
+    }
+    shade.diffuse *= 1 - coat;
+    shade.specular = shade.specular * (1 - coat) + reflected * coat;
     return shade;
 }
 
 Shade Shading::shade(const Hit& hit, const glm::dvec3& view, const RandomNumbers& random) const {
     const SurfacePoint point = seenPoint(*rays_, hit, view);
     const Material& material = *point.material;
-    if (material.unlit) return {glm::dvec3(point.base), glm::dvec3(0)};
-    Shade shade = point.mesh->skin ? shadeSkin(point, view, random) : shadeOther(hit, point, view, random);
+    if (material.unlit) return {.diffuse = glm::dvec3(point.base)};
+    if (!point.mesh->skin) return shadeOther(hit, point, view, random);
+    Shade shade = shadeSkin(point, view, random);
     shade.diffuse += glm::dvec3(material.emissive) * glm::dvec3(textureAt(hit, material.emissiveTexture));
     return shade;
 }

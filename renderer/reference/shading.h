@@ -7,6 +7,7 @@ namespace cutis::reference {
 
 struct Shade {
     glm::dvec3 diffuse{0}, specular{0};  // radiance; what is emitted counts as diffuse
+    glm::dvec3 through{0};               // share of the light from behind that goes straight through
 };
 
 class Shading {

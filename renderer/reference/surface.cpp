@@ -9,7 +9,7 @@ namespace cutis::reference {
 namespace {
 
 // A tangent-space normal map's normal in world space (glTF: +X tangent, +Y bitangent, +Z normal).
-glm::dvec3 mappedNormal(const glm::dvec3& n, const glm::dvec4& tangent, const glm::dvec3& texel,
+glm::dvec3 turnedNormal(const glm::dvec3& n, const glm::dvec4& tangent, const glm::dvec3& texel,
                         double scale) {
     const glm::dvec3 local = texel * 2.0 - 1.0;
     glm::dvec3 t = glm::dvec3(tangent) - n * glm::dot(n, glm::dvec3(tangent));
@@ -60,13 +60,18 @@ void readTextures(SurfacePoint& point, const Hit& hit, bool fromBack) {
     const PlacedMesh& mesh = *hit.mesh;
     point.base = glm::dvec4(mesh.material->baseColor) * mesh.colorAt(hit.triangle, hit.u, hit.v);
     if (mesh.material->baseColorTexture) point.base *= textureAt(hit, mesh.material->baseColorTexture);
-    if (!mesh.material->normalTexture || mesh.tangents.empty()) return;
+    point.normal =
+        mappedNormal(hit, mesh.material->normalTexture, mesh.material->normalScale, point.smooth, fromBack);
+}
+
+glm::dvec3 mappedNormal(const Hit& hit, const TextureSlot& slot, double scale, const glm::dvec3& smooth,
+                        bool fromBack) {
+    const PlacedMesh& mesh = *hit.mesh;
+    if (!slot || mesh.tangents.empty()) return smooth;
     const std::array<std::uint32_t, 3> vertex = mesh.triangle(hit.triangle);
     const glm::dvec4 tangent = mesh.tangents[vertex[0]] * (1 - hit.u - hit.v) +
                                mesh.tangents[vertex[1]] * hit.u + mesh.tangents[vertex[2]] * hit.v;
-    point.normal =
-        mappedNormal(point.smooth, fromBack ? -tangent : tangent,
-                     glm::dvec3(textureAt(hit, mesh.material->normalTexture)), mesh.material->normalScale);
+    return turnedNormal(smooth, fromBack ? -tangent : tangent, glm::dvec3(textureAt(hit, slot)), scale);
 }
 
 }  // namespace cutis::reference

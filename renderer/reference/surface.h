@@ -34,6 +34,10 @@ inline glm::dvec3 albedoOf(const SurfacePoint& point) {
     return glm::clamp(glm::dvec3(point.base), 0.0, 1.0);
 }
 
+// The smooth normal as a normal map of the material turns it; as it is where the slot or the tangents are missing.
+glm::dvec3 mappedNormal(const Hit& hit, const TextureSlot& slot, double scale, const glm::dvec3& smooth,
+                        bool fromBack);
+
 // The texture of a slot there; white when the slot is empty.
 glm::dvec4 textureAt(const Hit& hit, const TextureSlot& slot);
 

@@ -17,6 +17,8 @@ constexpr const char* kSupported[] = {
     "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_unlit",
     "KHR_mesh_quantization", "KHR_texture_transform",           "EXT_texture_webp",
     "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+    "KHR_materials_ior", "KHR_materials_specular", "KHR_materials_clearcoat", "KHR_materials_sheen",
+    "KHR_materials_transmission",
     "KHR_materials_diffuse_transmission", "KHR_materials_volume", "KHR_materials_volume_scatter",  // as hints at skin
 };
 

@@ -158,8 +158,7 @@ class MaterialReader {
         if (m.occlusionTexture) m.occlusionStrength = factor(entry.member("occlusionTexture"), "strength", 1);
         m.emissiveTexture = readSlot(entry, "emissiveTexture", true);
         if (const auto color = entry.find("emissiveFactor")) {
-            const auto v = color->numbers(3);
-            for (int i = 0; i < 3; ++i) m.emissive[i] = float(std::clamp(v[i], 0.0, 1.0));
+            m.emissive = readColor(*color, 1);
         }
         if (const auto strength = extensionOf(entry, "KHR_materials_emissive_strength")) {
             const double value = strength->number("emissiveStrength", 1);
@@ -167,6 +166,7 @@ class MaterialReader {
             m.emissive *= float(value);
         }
         m.unlit = extensionOf(entry, "KHR_materials_unlit").has_value();
+        readLayers(entry, m);
         const std::string mode = entry.string("alphaMode", "OPAQUE");
         if (mode == "MASK") {
             m.alphaMode = AlphaMode::mask;
@@ -178,6 +178,50 @@ class MaterialReader {
         m.alphaCutoff = float(entry.number("alphaCutoff", 0.5));
         m.doubleSided = entry.boolean("doubleSided", false);
         return m;
+    }
+
+    // The extensions over metallic-roughness, with the ranges that their specifications give.
+    void readLayers(const JsonView& entry, Material& m) {
+        if (const auto ior = extensionOf(entry, "KHR_materials_ior")) {
+            const double value = ior->number("ior", 1.5);
+            if (value != 0 && !(value >= 1 && value <= 1e6))
+                ior->member("ior").fail("must be 0 or in [1, 1e6]");
+            m.dielectric.ior = float(value);
+        }
+        if (const auto specular = extensionOf(entry, "KHR_materials_specular")) {
+            m.dielectric.specular = factor(*specular, "specularFactor", 1);
+            m.dielectric.specularTexture = readSlot(*specular, "specularTexture", false);
+            if (const auto color = specular->find("specularColorFactor")) {
+                m.dielectric.specularColor = readColor(*color, 1e6);
+            }
+            m.dielectric.specularColorTexture = readSlot(*specular, "specularColorTexture", true);
+        }
+        if (const auto coat = extensionOf(entry, "KHR_materials_clearcoat")) {
+            m.clearcoat.factor = factor(*coat, "clearcoatFactor", 0);
+            m.clearcoat.roughness = factor(*coat, "clearcoatRoughnessFactor", 0);
+            m.clearcoat.texture = readSlot(*coat, "clearcoatTexture", false);
+            m.clearcoat.roughnessTexture = readSlot(*coat, "clearcoatRoughnessTexture", false);
+            m.clearcoat.normalTexture = readSlot(*coat, "clearcoatNormalTexture", false);
+            if (m.clearcoat.normalTexture) {
+                m.clearcoat.normalScale = float(coat->member("clearcoatNormalTexture").number("scale", 1));
+            }
+        }
+        if (const auto sheen = extensionOf(entry, "KHR_materials_sheen")) {
+            if (const auto color = sheen->find("sheenColorFactor")) m.sheen.color = readColor(*color, 1);
+            m.sheen.roughness = factor(*sheen, "sheenRoughnessFactor", 0);
+            m.sheen.colorTexture = readSlot(*sheen, "sheenColorTexture", true);
+            m.sheen.roughnessTexture = readSlot(*sheen, "sheenRoughnessTexture", false);
+        }
+        if (const auto through = extensionOf(entry, "KHR_materials_transmission")) {
+            m.transmission = factor(*through, "transmissionFactor", 0);
+            m.transmissionTexture = readSlot(*through, "transmissionTexture", false);
+        }
+    }
+
+    static glm::vec3 readColor(const JsonView& value, double largest) {
+        const auto v = value.numbers(3);
+        return {std::clamp(v[0], 0.0, largest), std::clamp(v[1], 0.0, largest),
+                std::clamp(v[2], 0.0, largest)};
     }
 
     TextureSlot readSlot(const JsonView& owner, const char* key, bool color) {
@@ -230,8 +274,8 @@ class MaterialReader {
     Scene& scene_;
     MaterialMap map_;
     std::map<std::tuple<int, bool, Wrap, Wrap, bool, bool>, std::size_t>
-        textures_;                               // their place in the scene
-    std::map<std::size_t, std::size_t> images_;  // per image of the file: its place in the scene
+        textures_;                                    // their place in the scene
+    std::map<std::size_t, std::size_t> images_;       // per image of the file: its place in the scene
     std::vector<std::optional<SkinMaterial>> hints_;  // per material of the scene
     bool needsDefault_ = false;
 };

@@ -122,7 +122,7 @@ std::optional<Primitive> readPrimitive(Document& document, const JsonView& primi
     p.positions = readVec3(document, *position);
     const std::size_t count = p.positions.size();
     p.normals = readAttribute(document, attributes, "NORMAL", count, readVec3);
-    if (material.normalTexture) p.tangents = readAttribute(document, attributes, "TANGENT", count, readVec4);
+    if (material.tangentTexture()) p.tangents = readAttribute(document, attributes, "TANGENT", count, readVec4);
     p.uv0 = readAttribute(document, attributes, "TEXCOORD_0", count, readVec2);
     p.uv1 = readAttribute(document, attributes, "TEXCOORD_1", count, readVec2);
     p.colors = readAttribute(document, attributes, "COLOR_0", count, readVertexColors);
@@ -140,8 +140,8 @@ std::optional<Primitive> readPrimitive(Document& document, const JsonView& primi
     }
     completeNormals(p, smooth);
     checkTangents(p);
-    if (material.normalTexture && p.tangents.empty()) {
-        for (const std::uint32_t original : computeTangents(p, material.normalTexture))
+    if (material.tangentTexture() && p.tangents.empty()) {
+        for (const std::uint32_t original : computeTangents(p, material.tangentTexture()))
             vertices.push_back(vertices[original]);
     }
     readDeformation(document, primitive, joints, vertices, count, p);

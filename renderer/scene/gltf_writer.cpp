@@ -119,8 +119,50 @@ class GlbWriter {
                 m["extensions"]["KHR_materials_unlit"] = json::object();
                 extensions_.insert("KHR_materials_unlit");
             }
+            writeLayers(m, material);
             if (material.skin) m["extras"]["skin"] = skinMaterialJson(*material.skin);
             root_["materials"].push_back(std::move(m));
+        }
+    }
+
+    void writeTexture(json& owner, const char* key, const TextureSlot& slot) {
+        if (slot) owner[key] = textureInfo(slot);
+    }
+
+    // The extensions over metallic-roughness, each where it says more than nothing.
+    void writeLayers(json& m, const Material& material) {
+        const auto add = [&](const char* name, json content) {
+            m["extensions"][name] = std::move(content);
+            extensions_.insert(name);
+        };
+        const Dielectric& d = material.dielectric;
+        if (d.ior != 1.5f) add("KHR_materials_ior", {{"ior", d.ior}});
+        if (d.specular != 1 || d.specularColor != glm::vec3(1) || d.specularTexture ||
+            d.specularColorTexture) {
+            json specular = {{"specularFactor", d.specular},
+                             {"specularColorFactor", toJson(d.specularColor)}};
+            writeTexture(specular, "specularTexture", d.specularTexture);
+            writeTexture(specular, "specularColorTexture", d.specularColorTexture);
+            add("KHR_materials_specular", std::move(specular));
+        }
+        if (const Clearcoat& c = material.clearcoat; c.factor > 0) {
+            json coat = {{"clearcoatFactor", c.factor}, {"clearcoatRoughnessFactor", c.roughness}};
+            writeTexture(coat, "clearcoatTexture", c.texture);
+            writeTexture(coat, "clearcoatRoughnessTexture", c.roughnessTexture);
+            writeTexture(coat, "clearcoatNormalTexture", c.normalTexture);
+            if (c.normalTexture) coat["clearcoatNormalTexture"]["scale"] = c.normalScale;
+            add("KHR_materials_clearcoat", std::move(coat));
+        }
+        if (const Sheen& s = material.sheen; s.color != glm::vec3(0)) {
+            json sheen = {{"sheenColorFactor", toJson(s.color)}, {"sheenRoughnessFactor", s.roughness}};
+            writeTexture(sheen, "sheenColorTexture", s.colorTexture);
+            writeTexture(sheen, "sheenRoughnessTexture", s.roughnessTexture);
+            add("KHR_materials_sheen", std::move(sheen));
+        }
+        if (material.transmission > 0) {
+            json through = {{"transmissionFactor", material.transmission}};
+            writeTexture(through, "transmissionTexture", material.transmissionTexture);
+            add("KHR_materials_transmission", std::move(through));
         }
     }
 

@@ -66,9 +66,38 @@ struct SkinMaterial {
     double specular = 1;     // s, specular scale, ≥ 0
     bool translucency = true;
     double mmPerUnit = 1000;  // millimetres in one scene unit
+    // A second, narrower lobe of the same layer: f_s = s·((1 - w) f(m) + w f(ratio·m)).
+    double lobeWeight = 0;   // w, in [0,1]; 0: there is none
+    double lobeRatio = 0.5;  // its rms slope over that of the first, in (0,1]
+    // Relief of pores where textures resolve none (skin/detail.h): feeds the specular layer alone.
+    double detail = 0;       // multiplies its slopes, ≥ 0; 0: there is none
+    double detailScale = 8;  // mm after which the relief repeats, > 0
 };
 
 enum class AlphaMode { opaque, mask, blend };
+
+// How a surface that is no metal reflects: KHR_materials_ior and KHR_materials_specular.
+struct Dielectric {
+    float ior = 1.5f;            // ≥ 1; 0: reflects everything
+    float specular = 1;          // scales the reflection, in [0,1]
+    glm::vec3 specularColor{1};  // at normal incidence, ≥ 0
+    TextureSlot specularTexture, specularColorTexture;  // A; RGB
+};
+
+// KHR_materials_clearcoat: a clear lacquer over everything else.
+struct Clearcoat {
+    float factor = 0, roughness = 0;        // in [0,1]
+    TextureSlot texture, roughnessTexture;  // R; G
+    TextureSlot normalTexture;              // none: the lacquer follows the smooth surface
+    float normalScale = 1;
+};
+
+// KHR_materials_sheen: fibres that stand on the surface, as those of velvet.
+struct Sheen {
+    glm::vec3 color{0};                          // in [0,1]; 0: none
+    float roughness = 0;                         // in [0,1]
+    TextureSlot colorTexture, roughnessTexture;  // RGB; A
+};
 
 struct Material {
     std::string name;
@@ -86,14 +115,33 @@ struct Material {
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
     bool unlit = false;  // KHR_materials_unlit
+    // Of what is neither skin nor unlit:
+    Dielectric dielectric;
+    Clearcoat clearcoat;
+    Sheen sheen;
+    float transmission = 0;           // KHR_materials_transmission, in [0,1]: light goes straight through
+    TextureSlot transmissionTexture;  // R
     std::optional<SkinMaterial> skin;
+
+    bool layered() const { return !skin && !unlit; }  // has the four above
+    // What lies behind it is seen through it.
+    bool seenThrough() const { return alphaMode == AlphaMode::blend || (layered() && transmission > 0); }
+    // The normal map that tangents are for; empty without one.
+    const TextureSlot& tangentTexture() const { return normalTexture ? normalTexture : clearcoat.normalTexture; }
+    // All slots, in the order of the SLOT_ bits of shaders/shared/scene.h.
+    std::array<const TextureSlot*, 13> slots() const {
+        return {&baseColorTexture, &metallicRoughnessTexture, &normalTexture, &occlusionTexture,
+                &emissiveTexture, &dielectric.specularTexture, &dielectric.specularColorTexture,
+                &clearcoat.texture, &clearcoat.roughnessTexture, &clearcoat.normalTexture,
+                &sheen.colorTexture, &sheen.roughnessTexture, &transmissionTexture};
+    }
 };
 
 // Triangles of one material, in the pose that the scene is in. Arrays have one element a vertex, or none where noted.
 struct Primitive {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;   // always present and of unit length: computed when the file has none
-    std::vector<glm::vec4> tangents;  // present when the material has a normal map: w is the bitangent's sign
+    std::vector<glm::vec4> tangents;  // present when the material has Material::tangentTexture: w is the bitangent's sign
     std::vector<glm::vec2> uv0, uv1;  // may be empty
     std::vector<glm::vec4> colors;    // linear RGBA; may be empty
     std::vector<std::uint32_t> indices;  // three a triangle; degenerate and out-of-range triangles are gone

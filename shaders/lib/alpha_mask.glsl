@@ -8,28 +8,47 @@
 #include "lib/texture_array.glsl"
 #endif
 
-// uv: both texture coordinates; vertexAlpha: of the vertex colour.
-float surfaceAlpha(uint index, vec4 uv, float vertexAlpha) {
-    float alpha = materials[index].baseColor.a * vertexAlpha;
 #ifdef TEXTURED
-    // Before any branch: within one, a software device holds nothing for the pixels of a quad outside the triangle.
-    vec4 dx = dFdx(uv), dy = dFdy(uv);
-    TextureRef ref = materials[index].baseColorTexture;
-    if (ref.group >= 0) {
-        bool second = ref.texCoord == 1;
-        vec3 place = vec3(second ? uv.zw : uv.xy, 1.0);
-        vec2 ux = second ? dx.zw : dx.xy, uy = second ? dy.zw : dy.xy;
-        alpha *= sampleTextureArray(uint(ref.group), vec3(dot(ref.u, place), dot(ref.v, place), float(ref.layer)),
-                                    vec2(dot(ref.u.xy, ux), dot(ref.v.xy, ux)),
-                                    vec2(dot(ref.u.xy, uy), dot(ref.v.xy, uy))).a;
-    }
+// Their change over one pixel is taken before any branch: within one, a software device holds nothing for the pixels of a
+// quad outside the triangle.
+vec4 maskTexel(TextureRef ref, vec4 uv, vec4 dx, vec4 dy) {
+    if (ref.group < 0) return vec4(1.0);
+    bool second = ref.texCoord == 1;
+    vec3 place = vec3(second ? uv.zw : uv.xy, 1.0);
+    vec2 ux = second ? dx.zw : dx.xy, uy = second ? dy.zw : dy.xy;
+    return sampleTextureArray(uint(ref.group), vec3(dot(ref.u, place), dot(ref.v, place), float(ref.layer)),
+                              vec2(dot(ref.u.xy, ux), dot(ref.v.xy, ux)),
+                              vec2(dot(ref.u.xy, uy), dot(ref.v.xy, uy)));
+}
 #endif
-    return alpha;
+
+// Base colour and alpha. uv: both texture coordinates; vertexColor: of the vertex.
+vec4 surfaceColor(uint index, vec4 uv, vec4 vertexColor) {
+    vec4 color = materials[index].baseColor * vertexColor;
+#ifdef TEXTURED
+    color *= maskTexel(materials[index].baseColorTexture, uv, dFdx(uv), dFdy(uv));
+#endif
+    return color;
 }
 
 // True where the material has no surface.
 bool cutOut(uint index, vec4 uv, float vertexAlpha) {
-    return surfaceAlpha(index, uv, vertexAlpha) < materials[index].alphaCutoff;
+    return surfaceColor(index, uv, vec4(vertexAlpha)).a < materials[index].alphaCutoff;
+}
+
+// The share of light that a surface stops, in [0,1]: what it covers, less what goes straight through that. One number for
+// all colours, since a light map holds a surface or none.
+float stoppedLight(uint index, vec4 uv, vec4 vertexColor) {
+    vec4 color = surfaceColor(index, uv, vertexColor);
+    float clear = materials[index].clear;
+#ifdef TEXTURED
+    clear *= maskTexel(materials[index].transmissionTexture, uv, dFdx(uv), dFdy(uv)).r;
+#endif
+    uint flags = materials[index].flags;
+    float covered = (flags & MATERIAL_MASK) != 0u  ? (color.a < materials[index].alphaCutoff ? 0.0 : 1.0)
+                    : (flags & MATERIAL_BLEND) != 0u ? color.a
+                                                     : 1.0;
+    return covered * (1.0 - clear * dot(clamp(color.rgb, 0.0, 1.0), vec3(1.0 / 3.0)));
 }
 
 uint hash(uint x) {  // PCG (O'Neill 2014)

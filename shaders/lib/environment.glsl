@@ -14,6 +14,7 @@
 #include "shared/environment.h"
 #include "lib/metallic_roughness.glsl"
 #include "lib/sampling.glsl"
+#include "lib/sheen.glsl"
 #include "lib/skin_specular.glsl"
 
 // The world's direction in the environment's own frame: the environment is turned by the angle counter-clockwise about
@@ -73,6 +74,7 @@ struct EnvironmentView {
     uint set;
     uint first, end;  // of environmentSources
 };
+const EnvironmentView kNoView = EnvironmentView(ENVIRONMENT_ALL, 0u, 0u);
 
 EnvironmentView environmentView(float roughness) {
     uint set = environmentSet(roughness), medium = environment.mediumSources;
@@ -87,14 +89,16 @@ float widenedRoughness(float roughness, SourceLight source) {
 }
 
 // Reflected radiance of a GGX surface (glTF metallic-roughness): filtered importance sampling (Křivánek & Colbert 2008)
-// with `alpha` = roughness². Half-vectors at quantiles of D cosθ; each tap's lobe has the area that it stands for.
-vec3 environmentSpecularGgx(vec3 n, vec3 v, float alpha, vec3 f0) {
+// with `alpha` = roughness². Half-vectors at quantiles of D cosθ; each tap's lobe has the area that it stands for. 0 where it
+// is not `wanted`: loops without a turn are all that a software device leaves out.
+vec3 environmentSpecularGgx(vec3 n, vec3 v, float alpha, vec3 f0, vec3 f90, bool wanted) {
     const int kTaps = 16;
     mat3 frame = frameAlong(n, v);
     float nv = max(dot(n, v), 1e-3), a2 = alpha * alpha;
-    EnvironmentView map = environmentView(alpha);
+    EnvironmentView map = kNoView;
+    if (wanted) map = environmentView(alpha);
     vec3 sum = vec3(0.0);
-    for (int k = 0; k < kTaps; ++k) {
+    for (int k = 0, end = wanted ? kTaps : 0; k < end; ++k) {
         vec2 u = spiralPoint(k, kTaps);
         float tan2 = a2 * u.x / (1.0 - u.x), cosine = inversesqrt(1.0 + tan2), sine = sqrt(tan2) * cosine;
         vec3 h = frame * vec3(sine * cos(u.y), sine * sin(u.y), cosine);
@@ -108,7 +112,7 @@ vec3 environmentSpecularGgx(vec3 n, vec3 v, float alpha, vec3 f0) {
         float k2 = 1.0 + cosine * cosine * (a2 - 1.0);
         float pdf = a2 / (3.14159265358979 * k2 * k2) * cosine / (4.0 * vh);
         float sigma = min(sqrt(1.0 / (float(kTaps) * pdf * 4.0)), 0.5);
-        sum += schlick(f0, vh) * (weight * environmentVisibility(l)) *
+        sum += schlick(f0, f90, vh) * (weight * environmentVisibility(l)) *
                environmentRadianceAt(l, environmentLobeNumber(sigma), map.set);
     }
     sum /= float(kTaps);
@@ -119,7 +123,35 @@ vec3 environmentSpecularGgx(vec3 n, vec3 v, float alpha, vec3 f0) {
         vec3 h = normalize(source.direction + v);
         sum += source.flux * (nl * ggxVisibilityDistribution(n, v, source.direction, h,
                                                              widenedRoughness(alpha, source))) *
-               schlick(f0, dot(v, h));
+               schlick(f0, f90, dot(v, h));
+    }
+    return sum;
+}
+
+// The light that a sheen of colour 1 reflects: the lobe is smooth, so directions by the cosine see it all; their sum is
+// brought to its albedo, which makes a uniform environment exact. 0 where it is not `wanted`, likewise.
+vec3 environmentSheen(vec3 n, vec3 v, float roughness, bool wanted) {
+    const int kTaps = 16;
+    mat3 frame = frameAlong(n, v);
+    float scale = max(sheenAlbedo(max(dot(n, v), 1e-4), roughness), 1e-6), total = 0.0;
+    vec3 sum = vec3(0.0);
+    for (int k = 0, end = wanted ? kTaps : 0; k < end; ++k) {
+        vec2 u = spiralPoint(k, kTaps);
+        float sine = sqrt(u.x), cosine = sqrt(1.0 - u.x);
+        vec3 l = frame * vec3(sine * cos(u.y), sine * sin(u.y), cosine);
+        float weight = sheenLobe(n, v, l, roughness);
+        // Each stands for a solid angle of π / (N cosθ).
+        float sigma = min(sqrt(3.14159265358979 / (4.0 * float(kTaps) * cosine)), 0.5);
+        total += weight;
+        sum += environmentRadianceAt(l, environmentLobeNumber(sigma), ENVIRONMENT_ROUGH) * (weight * environmentVisibility(l));
+    }
+    sum *= min(scale, 1.0) / max(total, 1e-12);
+    EnvironmentView map = kNoView;
+    if (wanted) map = environmentView(1.0);
+    for (uint i = map.first; i < map.end; ++i) {
+        SourceLight source = environmentSource(i);
+        float nl = dot(n, source.direction);
+        if (nl > 0.0) sum += source.flux * (nl * sheenLobe(n, v, source.direction, roughness));
     }
     return sum;
 }

@@ -57,4 +57,10 @@ void orthonormalBasis(vec3 n, out vec3 t, out vec3 b) {
     b = vec3(c, s + n.y * n.y * a, -n.y);
 }
 
+// A normal that looks away from the viewer, by interpolation or by a map, is bent back to the horizon.
+vec3 facingNormal(vec3 n, vec3 view, vec3 smoothNormal) {
+    float facing = dot(n, view);
+    return facing < 0.02 ? safeNormalize(n + view * (0.02 - facing), smoothNormal) : n;
+}
+
 #endif

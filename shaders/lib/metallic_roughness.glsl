@@ -2,9 +2,14 @@
 #ifndef CUTIS_METALLIC_ROUGHNESS_GLSL
 #define CUTIS_METALLIC_ROUGHNESS_GLSL
 
-vec3 schlick(vec3 f0, float cosine) {
+// Fresnel between f0 at normal incidence and f90 at grazing angles.
+vec3 schlick(vec3 f0, vec3 f90, float cosine) {
     float x = clamp(1.0 - cosine, 0.0, 1.0), x2 = x * x;
-    return f0 + (1.0 - f0) * (x2 * x2 * x);
+    return f0 + (f90 - f0) * (x2 * x2 * x);
+}
+float schlick(float f0, float f90, float cosine) {
+    float x = clamp(1.0 - cosine, 0.0, 1.0), x2 = x * x;
+    return f0 + (f90 - f0) * (x2 * x2 * x);
 }
 
 // D · G / (4 (N·L)(N·V)). alpha: roughness squared. N·H comes through the cross product: 1 - (N·H)² has no digits

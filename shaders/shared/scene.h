@@ -12,6 +12,11 @@ const uint MATERIAL_MASK = 8u;
 const uint MATERIAL_BLEND = 16u;
 const uint MATERIAL_TRANSLUCENT = 32u;
 
+// What a translucent shadow map holds in place of a place in the atlas: nothing, or what is not skin; and a surface that lets
+// part of the light through, of which the map shows a pattern.
+const uint ENTRY_NONE = 0xffffffffu;
+const uint ENTRY_VEILED = 0xfffffffeu;
+
 const int MAX_TEXTURE_GROUPS = 16;
 const uint NO_CHART = 0xffffffffu;
 
@@ -21,6 +26,21 @@ const uint SLOT_METALLIC_ROUGHNESS = 2u;
 const uint SLOT_NORMAL = 4u;
 const uint SLOT_OCCLUSION = 8u;
 const uint SLOT_EMISSIVE = 16u;
+const uint SLOT_SPECULAR = 32u;
+const uint SLOT_SPECULAR_COLOR = 64u;
+const uint SLOT_COAT = 128u;
+const uint SLOT_COAT_ROUGHNESS = 256u;
+const uint SLOT_COAT_NORMAL = 512u;
+const uint SLOT_SHEEN_COLOR = 1024u;
+const uint SLOT_SHEEN_ROUGHNESS = 2048u;
+const uint SLOT_TRANSMISSION = 4096u;
+// Of them, the slots that hold normals.
+const uint SLOTS_OF_NORMALS = SLOT_NORMAL | SLOT_COAT_NORMAL;
+
+// Bits of the specialization constant LAYERS: what any material of the scene that is not skin has.
+const uint LAYER_COAT = 1u;
+const uint LAYER_SHEEN = 2u;
+const uint LAYER_THROUGH = 4u;
 
 // A texture as a layer of one of the bound arrays (textures of equal size, format and sampler share an array).
 struct TextureRef {
@@ -47,7 +67,17 @@ struct Material {
     float meanAlbedo;      // mean directional albedo at m, not yet multiplied by s
     uint albedoRow;        // row of the directional-albedo table
     uint matteLayer;       // index of m among the environment's prefiltered matte maps
+    // What is not skin (docs/model.md)
+    vec3 reflectance;    // of the dielectric at normal incidence, of colour and index of refraction
+    float specular;      // scales that
+    vec3 sheen;          // colour
+    float sheenRoughness;
+    float coat, coatRoughness, coatNormalScale;
+    float transmission;
+    float clear;         // share of light that passes straight through it, of base colour and transmission texture 1
     TextureRef baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture;
+    TextureRef specularTexture, specularColorTexture, coatTexture, coatRoughnessTexture, coatNormalTexture;
+    TextureRef sheenColorTexture, sheenRoughnessTexture, transmissionTexture;
 };
 
 // One primitive placed in the world.
@@ -136,9 +166,9 @@ const uint POINT_DATA = 0x80000000u;  // bit of a list entry: this point fills t
 
 // The light that a shading point sends to the eye.
 struct ShadedPoint {
-    vec3 diffuse;  // radiance; what is emitted counts as diffuse
-    float alpha;
-    vec3 specular;  // radiance
+    vec3 diffuse;   // radiance, times its coverage; what is emitted counts as diffuse
+    vec3 specular;  // likewise
+    vec3 through;   // share of the light from behind that is seen
 };
 
 struct EnvironmentSettingsData {

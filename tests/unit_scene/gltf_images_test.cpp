@@ -127,6 +127,27 @@ TEST(GltfImages, FromAFileAndFromADataUriOfAnyFormat) {
     EXPECT_TRUE(file.textures.at(0).srgb);
 }
 
+// EXT_texture_webp: whoever reads WebP takes the extension's image, not the one given for those who do not.
+TEST(GltfImages, AWebpTextureIsTakenFromItsExtension) {
+    const test::TemporaryFolder folder;
+    writeImage<std::uint8_t>(folder / "a.webp", {51, 102, 153});
+    writeImage<std::uint8_t>(folder / "a.png", {255, 255, 255});
+    for (const bool fallback : {true, false}) {
+        test::GltfFile file = test::triangleFile();
+        file.json["images"] = {{{"uri", "a.png"}}, {{"uri", "a.webp"}}};
+        file.json["textures"] = {{{"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}}};
+        if (fallback) file.json["textures"][0]["source"] = 0;
+        file.json["extensionsUsed"] = {"EXT_texture_webp"};
+        if (!fallback) file.json["extensionsRequired"] = {"EXT_texture_webp"};
+        file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+        file.json["meshes"][0]["primitives"][0]["material"] = 0;
+        const Scene scene = loadGltf(file.saveEmbedded(folder.path()));
+        ASSERT_EQ(scene.images.size(), 1u);
+        EXPECT_EQ(scene.images[0].name, "a.webp");
+        EXPECT_TRUE(scene.materials[0].baseColorTexture);
+    }
+}
+
 // Sixteen bits of sRGB have no texture format of their own: they are made linear, the same image as data is
 // not.
 TEST(GltfImages, DeepColoursAreMadeLinear) {

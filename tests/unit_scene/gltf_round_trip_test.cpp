@@ -63,19 +63,42 @@ Scene makeScene() {
     skin.skin->profile.gaussians = {{0.1, {0.75, 0.5, 1}}, {3, {0.25, 0.5, 0}}};
     skin.skin->scale = 1.5;
     skin.skin->mmPerUnit = 10;
+    skin.skin->lobeWeight = 0.25;
+    skin.skin->lobeRatio = 0.375;
+    skin.skin->detail = 1.5;
+    skin.skin->detailScale = 12;
     skin.skin->translucency = false;
     Material glass;
     glass.name = "glass";
     glass.alphaMode = AlphaMode::blend;
     glass.unlit = true;
+    Material eye;
+    eye.name = "cornea";
+    eye.dielectric = {.ior = 1.375f,
+                      .specular = 0.5f,
+                      .specularColor = {1, 2, 0.5f},
+                      .specularTexture = {1, 0, glm::mat3(1)},
+                      .specularColorTexture = {0, 1, glm::mat3(1)}};
+    eye.clearcoat = {.factor = 0.75f,
+                     .roughness = 0.125f,
+                     .texture = {1, 0, glm::mat3(1)},
+                     .roughnessTexture = {2, 0, glm::mat3(1)},
+                     .normalTexture = {1, 1, glm::mat3(1)},
+                     .normalScale = 0.25f};
+    eye.sheen = {.color = {0.25f, 0.5f, 1},
+                 .roughness = 0.375f,
+                 .colorTexture = {0, 0, glm::mat3(1)},
+                 .roughnessTexture = {1, 0, glm::mat3(1)}};
+    eye.transmission = 0.875f;
+    eye.transmissionTexture = {2, 1, glm::mat3(1)};
     Material lash;
     lash.alphaMode = AlphaMode::mask;
     lash.alphaCutoff = 0.75f;
-    scene.materials = {skin, glass, lash};
-    scene.meshes = {{"face", {makeQuad(0), makeQuad(1)}}, {"lashes", {makeQuad(2)}}};
+    scene.materials = {skin, glass, lash, eye};
+    scene.meshes = {{"face", {makeQuad(0), makeQuad(1), makeQuad(3)}}, {"lashes", {makeQuad(2)}}};
     for (Mesh& mesh : scene.meshes) {
         for (Primitive& p : mesh.primitives) {
-            if (p.material != 0) p.tangents.clear();
+            if (!scene.materials[p.material].tangentTexture()) p.tangents.clear();
         }
     }
 
@@ -143,9 +166,16 @@ void expectSameMaterial(const Scene& a, const Material& m, const Scene& b, const
     EXPECT_EQ(m.alphaCutoff, n.alphaCutoff);
     EXPECT_EQ(m.doubleSided, n.doubleSided);
     EXPECT_EQ(m.unlit, n.unlit);
-    expectSameSlot(a, m.baseColorTexture, b, n.baseColorTexture);
-    expectSameSlot(a, m.normalTexture, b, n.normalTexture);
-    expectSameSlot(a, m.occlusionTexture, b, n.occlusionTexture);
+    for (std::size_t i = 0; i < m.slots().size(); ++i) expectSameSlot(a, *m.slots()[i], b, *n.slots()[i]);
+    EXPECT_EQ(m.dielectric.ior, n.dielectric.ior);
+    EXPECT_EQ(m.dielectric.specular, n.dielectric.specular);
+    EXPECT_EQ(m.dielectric.specularColor, n.dielectric.specularColor);
+    EXPECT_EQ(m.clearcoat.factor, n.clearcoat.factor);
+    EXPECT_EQ(m.clearcoat.roughness, n.clearcoat.roughness);
+    EXPECT_EQ(m.clearcoat.normalScale, n.clearcoat.normalScale);
+    EXPECT_EQ(m.sheen.color, n.sheen.color);
+    EXPECT_EQ(m.sheen.roughness, n.sheen.roughness);
+    EXPECT_EQ(m.transmission, n.transmission);
     ASSERT_EQ(m.skin.has_value(), n.skin.has_value());
     if (!m.skin) return;
     EXPECT_EQ(m.skin->profile, n.skin->profile);
@@ -153,6 +183,10 @@ void expectSameMaterial(const Scene& a, const Material& m, const Scene& b, const
     EXPECT_EQ(m.skin->mix, n.skin->mix);
     EXPECT_EQ(m.skin->mmPerUnit, n.skin->mmPerUnit);
     EXPECT_EQ(m.skin->translucency, n.skin->translucency);
+    EXPECT_EQ(m.skin->lobeWeight, n.skin->lobeWeight);
+    EXPECT_EQ(m.skin->lobeRatio, n.skin->lobeRatio);
+    EXPECT_EQ(m.skin->detail, n.skin->detail);
+    EXPECT_EQ(m.skin->detailScale, n.skin->detailScale);
 }
 
 TEST(GltfRoundTrip, EverythingComesBack) {

@@ -46,7 +46,7 @@ void main() {
     } else if (push.what == 2u) {
         result = environmentSpecularSkin(n, v, push.roughness, push.scale, 0u);
     } else if (push.what == 3u) {
-        result = environmentSpecularGgx(n, v, push.roughness, vec3(push.scale));
+        result = environmentSpecularGgx(n, v, push.roughness, vec3(push.scale), vec3(1.0), true);
     } else {
         result = environmentRadianceAt(n, environmentLobeNumber(push.roughness), ENVIRONMENT_ALL);
     }
