@@ -311,13 +311,13 @@ TEST(Layers, TheRendererAgreesWithTheReference) {
     const Picture sky = makeEnvironment(
         64, 32, [](const glm::dvec3& d) { return glm::dvec3(0.3, 0.4, 0.5) * (1.2 + d.y + 0.5 * d.x); });
     const std::vector<Light> lights{directionalLight("sun", glm::normalize(glm::dvec3(0.4, -0.5, -1)), 2)};
-    RenderJob job{.scene = zoo().scene(), .lights = lights, .environment = sky, .width = 72, .height = 54};
+    RenderJob job{.scene = zoo().scene(), .lights = lights, .environment = sky, .width = 60, .height = 60};
     const Picture fast = render(job).picture;
     const reference::Result exact = evaluate({.scene = zoo().scene(),
                                               .lights = lights,
                                               .environment = sky,
-                                              .width = 72,
-                                              .height = 54,
+                                              .width = 60,
+                                              .height = 60,
                                               .passes = 8});
     reportFigure("zoo: noise of the reference", exact.pictureError);
     expectAtMost("zoo: relative L2 against the reference", relativeL2(fast, exact.picture), 0.05);
