@@ -1,5 +1,5 @@
 // What most files include, compiled once: of the standard library and of GLM nothing changes. Files include what they use all
-// the same, as builds with CUTIS_PRECOMPILED=OFF (tools/fuzz among them) show.
+// the same, as builds with CUTIS_PRECOMPILED=OFF show.
 #pragma once
 
 #include <algorithm>

@@ -12,8 +12,9 @@ namespace {
 
 // Surfaces seen through, one behind the other, that are kept apart.
 constexpr int kPeeledLayers = 6;
-// Shading points of a tile, whatever it holds: what bounds the memory of a picture of any size.
-constexpr double kMaxPoints = 1 << 22;
+// Shading points of a tile, whatever it holds: what bounds the memory of a picture of any size. So many that every device can
+// bind what is known of each (Vulkan's least maxStorageBufferRange).
+constexpr double kMaxPoints = double(1 << 27) / std::max(sizeof(shared::ShadingPoint), sizeof(shared::ShadedPoint));
 
 struct ViewPush {
     std::uint32_t firstTriangle, material;

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "renderer/core/error.h"
 #include "renderer/scene/codec/protocol.h"
@@ -76,6 +78,8 @@ class Process {
         const int error = ::posix_spawn(&pid, path.c_str(), &actions, nullptr, arguments, environ);
         ::posix_spawn_file_actions_destroy(&actions);
         if (error) throw Error("cannot start the image codec", std::strerror(error), path);
+        std::erase_if(started_, [](pid_t ended) { return ::waitpid(ended, nullptr, WNOHANG) != 0; });
+        started_.push_back(pid);
         // The socket of a dead process stays open, so that no other gets its number while somebody may use
         // it.
         socket_ = std::exchange(pair.ends[0], -1);
@@ -83,6 +87,7 @@ class Process {
 
     std::mutex mutex_;
     int socket_ = -1;
+    std::vector<pid_t> started_;  // and not seen to end: one that has ended is kept by the system until somebody asks for it
 };
 
 bool converse(int socket, const codec::Request& request, std::span<const std::byte> data,

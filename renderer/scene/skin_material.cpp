@@ -142,7 +142,6 @@ nlohmann::json skinMaterialJson(const SkinMaterial& skin) {
 std::vector<FieldGroup> skinFields() {
     return {{"Skin",
              {fields::kProfile, fields::kScale, fields::kMix, fields::kRoughness, fields::kSpecular,
-
               fields::kTranslucency, fields::kMmPerUnit}},
             {"A Gaussian of a profile", {fields::kVariance, fields::kWeight}}};
 }

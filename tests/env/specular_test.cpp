@@ -78,7 +78,7 @@ TEST_P(SpecularOf, sphereMatchesAllTexels) {
     const EnvironmentMaps maps = prefilterEnvironment(testDevice(), environment, std::vector{SkinSpecular{}});
     const std::vector<Texel> texels = listTexels(environment);
     for (const double m : {0.05, 0.1, 0.3, 0.6, 1.0}) {
-        const auto normals = sphereNormals(m <= 0.1 ? 24 : 10);
+        const auto normals = sphereNormals(m <= 0.1 ? 32 : 10);
         const auto exact = reflectTexels(texels, normals, m);
         const auto found =
             lookUp(maps, {.what = Lookup::skinSpecular, .roughness = float(m)}, queriesOf(normals));
