@@ -1,6 +1,5 @@
 #include "renderer/frame/ahead.h"
 
-#include <algorithm>
 #include <map>
 
 #include "renderer/core/timeline.h"
