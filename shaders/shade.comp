@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
-// features: SKIN SHADOWS ENVIRONMENT TEXTURED AOVS
+// features: SKIN SHADOWS ENVIRONMENT TEXTURED AOVS DETAIL(SKIN)
 #include "shared/environment.h"
 #include "shared/scene.h"
 #include "lib/geometry.glsl"
@@ -29,6 +29,10 @@ layout(binding = 12, scalar) readonly buffer AlbedoTableBuffer { float albedoTab
 layout(binding = 13, scalar) readonly buffer AtlasVertexBuffer { AtlasVertex atlasVertices[]; };
 layout(binding = 14) uniform texture2D exitance;  // rgb: M; a: island
 layout(binding = 27) uniform texture2D surfaceNormal;  // see surface.comp
+#ifdef DETAIL
+layout(binding = 28, scalar) readonly buffer RestPositionBuffer { vec3 restPositions[]; };
+layout(binding = 29) uniform sampler2D detailSlopes;
+#endif
 #ifdef SHADOWS
 layout(binding = 15) uniform texture2DArray lightVisibility;  // a layer a light (shared/light_share.h)
 #endif
@@ -135,6 +139,9 @@ struct Shade {
     uint character;
 };
 
+#ifdef DETAIL
+#include "lib/detail.glsl"
+#endif
 #ifdef SKIN
 #include "lib/skin_surface.glsl"
 #else
@@ -164,7 +171,7 @@ Shade shadeAt(uint triangleIndex, vec2 pixel) {
     vec4 base = material.baseColor * interpolate(w, va.color, vb.color, vc.color);
     vec3 n = smoothNormal, emitted = material.emissive;
     vec4 tangent = vec4(0.0);
-#if defined(TEXTURED) || !defined(SKIN)
+#if defined(TEXTURED) || defined(DETAIL) || !defined(SKIN)
     Ray rx = cameraRay(pixel + vec2(push.step, 0.0)), ry = cameraRay(pixel + vec2(0.0, push.step));
     vec3 wx = barycentricOnRay(triangle, rx.origin, rx.direction);
     vec3 wy = barycentricOnRay(triangle, ry.origin, ry.direction);
@@ -198,7 +205,13 @@ Shade shadeAt(uint triangleIndex, vec2 pixel) {
     }
 #ifdef SKIN
     vec2 texel = interpolate(w, atlasVertices[v.x].texel, atlasVertices[v.y].texel, atlasVertices[v.z].texel);
-    shadeSkin(shade, material, texel, atlasVertices[v.x].island, p, smoothNormal, n, view);
+    vec3 detailed = n;
+    float removed = 0.0;
+#ifdef DETAIL
+    detailed = facingNormal(detailedNormal(material, triangle, restPositions[v.x], restPositions[v.y], restPositions[v.z], w, wx, wy,
+                                           va, vb, vc, smoothNormal, n, removed), view, smoothNormal);
+#endif
+    shadeSkin(shade, material, texel, atlasVertices[v.x].island, p, smoothNormal, n, detailed, removed, view);
 #else
     vec3 share = vec3(1.0);
 #ifdef ENVIRONMENT

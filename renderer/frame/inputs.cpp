@@ -101,13 +101,14 @@ InputHashes hashInputs(const FrameContext& frame) {
     for (const GeometryDraw& draw : frame.geometry.draws) pose.add(draw.pose);
     set(Input::pose, pose.value());
     set(Input::textures, hashTextures(frame));
-    set(Input::materials, hashMaterials(scene));
-    ContentHash layer, mix;
+        ContentHash layer, mix, pores;
     for (const int material : skinMaterials(scene, frame.geometry)) {
         const SkinMaterial& skin = *scene.materials[material].skin;
-        layer.add(material, skin.roughness, skin.specular);
+        layer.add(material, skin.roughness, skin.specular, skin.lobeWeight, skin.lobeRatio);
+        pores.add(skin.detail, skin.detailScale);
         mix.add(material, skin.mix);
     }
+    set(Input::materials, pores.add(hashMaterials(scene)).value());
     set(Input::skinLayer, layer.value());
     set(Input::skinMix, mix.value());
     set(Input::profiles, hashProfiles(frame));

@@ -86,6 +86,8 @@ Needs computeNeeds(const NeedsInput& input) {
     };
     setLayer(Need::clearcoat, input.coatedMaterials, " with a clear coat", "no material has a clear coat");
     setLayer(Need::sheen, input.sheenMaterials, " with a sheen", "no material has a sheen");
+    setLayer(Need::secondLobe, input.twoLobedMaterials, " of skin with two specular lobes", "no skin has a second specular lobe");
+    setLayer(Need::detail, input.poredMaterials, " of skin with pores", "no skin has pores");
     setLayer(Need::transmission, input.glassMaterials, " that light goes straight through",
              "nothing is of glass");
     return needs;
@@ -96,7 +98,9 @@ std::vector<LeftOut> leftOutWithinRows(const Needs& needs) {
         {Need::translucency, "translucency"},  {Need::areaLights, "area_lights"},
         {Need::skinSpecular, "skin_specular"}, {Need::transparency, "transparency"},
         {Need::clearcoat, "clearcoat"},        {Need::sheen, "sheen"},
-        {Need::transmission, "transmission"}};
+        {Need::transmission, "transmission"},
+        {Need::secondLobe, "second_lobe"},
+        {Need::detail, "detail"}};
     std::vector<LeftOut> parts;
     for (const auto& [need, name] : kParts) {
         if (!needs[need]) parts.push_back({name, needs.why(need)});

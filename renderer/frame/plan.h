@@ -14,9 +14,9 @@ struct FrameContext;
 // What a scene may need. A row of the pass table runs when its need is met.
 enum class Need {
     always, skin, litSkin, hiddenSkin, lights, areaLights, shadows, translucency, oppositeSides, environment,
-    skinSpecular, transparency, seams, motion, clearcoat, sheen, transmission
+    skinSpecular, transparency, seams, motion, clearcoat, sheen, transmission, secondLobe, detail
 };
-inline constexpr int kNeedCount = 17;
+inline constexpr int kNeedCount = 19;
 
 // Each need with the reason for which it is met or not, in words.
 struct Needs {
@@ -30,6 +30,7 @@ struct NeedsInput {
     int skinDraws = 0, translucentSkinMaterials = 0;
     int lightSamples = 0, shadowedSamples = 0, areaSamples = 0;
     int shinySkinMaterials = 0, blendedDraws = 0;
+    int twoLobedMaterials = 0, poredMaterials = 0;  // of skin that shines
     int coatedMaterials = 0, sheenMaterials = 0, glassMaterials = 0;  // of what is not skin
     std::size_t seams = 0;  // edges of UV islands beyond which the skin goes on
     bool environment = false;

@@ -56,7 +56,10 @@ NeedsInput factsOf(const FrameContext& frame) {
     facts.seams = frame.skinMesh.seams;
     for (const int material : skinMaterials(scene, frame.geometry)) {
         facts.translucentSkinMaterials += scene.materials[material].skin->translucency;
-        facts.shinySkinMaterials += scene.materials[material].skin->specular > 0;
+        const SkinMaterial& skin = *scene.materials[material].skin;
+        facts.shinySkinMaterials += skin.specular > 0;
+        facts.twoLobedMaterials += skin.specular > 0 && skin.lobeWeight > 0;
+        facts.poredMaterials += skin.specular > 0 && skin.detail > 0;
     }
     return facts;
 }

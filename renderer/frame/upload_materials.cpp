@@ -1,11 +1,14 @@
 // Materials on the device: what shaders read of them, which textures they sample, and how what they cover is
 // drawn.
 #include <algorithm>
+#include <glm/gtc/packing.hpp>
 #include <iterator>
 
 #include "renderer/frame/frame.h"
 #include "renderer/frame/upload.h"
 #include "renderer/frame/upload_parts.h"
+#include "renderer/gpu/device.h"
+#include "renderer/skin/detail.h"
 #include "renderer/skin/specular.h"
 #include "renderer/skin/specular_lobes.h"
 
@@ -61,8 +64,65 @@ float slopeOf(const SkinMaterial& skin) {
     return static_cast<float>(std::max(skin.roughness, skin::kMinRoughness));
 }
 
+bool hasSecondLobe(const SkinMaterial& skin) {
+    return skin.lobeWeight > 0;
+}
+
+float narrowerSlopeOf(const SkinMaterial& skin) {
+    return static_cast<float>(std::max(skin.roughness * skin.lobeRatio, skin::kMinRoughness));
+}
+
 SkinSpecular layerOf(const SkinMaterial& skin) {
-    return {slopeOf(skin), static_cast<float>(skin.specular)};
+    SkinSpecular layer{slopeOf(skin), static_cast<float>(skin.specular)};
+    if (hasSecondLobe(skin)) {
+        layer.narrower = narrowerSlopeOf(skin);
+        layer.weight = static_cast<float>(skin.lobeWeight);
+    }
+    return layer;
+}
+
+// A row of the table of the specular layer: the albedo of both lobes together, and the shape of the first.
+struct TableRow {
+    float roughness, narrower, weight;
+    bool operator==(const TableRow&) const = default;
+};
+
+void setPores(shared::Material& to, const Material& from, const Scene& scene, const glm::dvec3& origin) {
+    const SkinMaterial& skin = *from.skin;
+    const double narrowest = hasSecondLobe(skin) ? narrowerSlopeOf(skin) : slopeOf(skin);
+    const double strength = skin::detailStrength(skin.detail, narrowest);
+    const double tiles = skin.mmPerUnit / skin.detailScale;
+    to.detailStrength = static_cast<float>(strength);
+    to.detailTiles = static_cast<float>(tiles);
+    to.detailOffset = glm::vec3(glm::fract(origin * tiles));
+    if (from.normalTexture) {
+        const Image& map = scene.images[scene.textures[from.normalTexture.texture].image];
+        to.normalTexels = static_cast<float>(map.width) * static_cast<float>(map.height);
+    }
+    for (int level = 0; level < skin::kDetailLevels; ++level) {
+        to.detailVariance[level] = static_cast<float>(strength * strength * skin::detailTile().variance[level]);
+    }
+}
+
+void uploadDetailTile(FrameContext& frame) {
+    SceneBuffers& buffers = frame.scene.buffers;
+    if (!frame.needs[Need::detail]) {
+        buffers.detailSlopes = {}, buffers.detailTile = {};
+        return;
+    }
+    if (buffers.detailTile) return;
+    constexpr auto kSize = static_cast<std::uint32_t>(skin::kDetailSize);
+    buffers.detailTile = gpu::Image(*frame.device, {.name = "pores", .format = VK_FORMAT_R16G16_SFLOAT, .width = kSize, .height = kSize,
+                                                    .mips = static_cast<std::uint32_t>(skin::kDetailLevels),
+                                                    .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    for (std::uint32_t level = 0; level < std::uint32_t(skin::kDetailLevels); ++level) {
+        std::vector<std::uint32_t> texels;
+        for (const glm::vec2& slope : skin::detailTile().slopes[level]) texels.push_back(glm::packHalf2x16(slope));
+        frame.commands->upload(buffers.detailTile.layer(0).mip(level), texels);
+    }
+    buffers.detailSlopes = gpu::sampled(
+        buffers.detailTile, frame.device->sampler({.filter = VK_FILTER_LINEAR, .u = VK_SAMPLER_ADDRESS_MODE_REPEAT,
+                                                   .v = VK_SAMPLER_ADDRESS_MODE_REPEAT, .anisotropy = 1}));
 }
 
 // At normal incidence: ((n - 1) / (n + 1))² of each colour.
@@ -195,27 +255,36 @@ void uploadMaterials(FrameContext& frame) {
     for (const Material& material : scene.materials)
         materials.push_back(toShared(material, frame.scene.texturePlaces));
     std::vector<SkinSpecular> layers;
-    std::vector<float> roughness;
-    std::vector<std::vector<float>> rows;
+    std::vector<TableRow> rows;
+    std::vector<std::vector<float>> albedo;
+    const auto rowOf = [&](const TableRow& row) {
+        const std::size_t place = indexOf(rows, row);
+        if (place == albedo.size()) albedo.push_back(skin::mixedAlbedoRow(row.roughness, row.narrower, row.weight));
+        return static_cast<std::uint32_t>(place);
+    };
     for (const int index : skinMaterials(scene, frame.geometry)) {
         const SkinMaterial& skin = *scene.materials[index].skin;
+        const SkinSpecular layer = layerOf(skin);
         shared::Material& to = materials[index];
-        const std::size_t row = indexOf(roughness, slopeOf(skin));
-        if (row == rows.size()) rows.push_back(skin::directionalAlbedoRow(slopeOf(skin)));
-        to.slope = slopeOf(skin);
-        to.specularScale = static_cast<float>(skin.specular);
+        to.slope = layer.roughness;
+        to.specularScale = layer.scale;
         to.mix = static_cast<float>(skin.mix);
         to.mmPerUnit = static_cast<float>(skin.mmPerUnit);
-        to.meanAlbedo = static_cast<float>(skin::meanAlbedo(rows[row], skin.specular));
-        to.albedoRow = static_cast<std::uint32_t>(row);
-        to.matteLayer = static_cast<std::uint32_t>(indexOf(layers, layerOf(skin)));
+        to.albedoRow = rowOf({layer.roughness, layer.narrower, layer.weight});
+        to.meanAlbedo = static_cast<float>(skin::meanAlbedo(albedo[to.albedoRow], skin.specular));
+        to.matteLayer = static_cast<std::uint32_t>(indexOf(layers, layer));
+        to.slope2 = layer.narrower;
+        to.lobeWeight = layer.weight;
+        if (hasSecondLobe(skin)) to.albedoRow2 = rowOf({layer.narrower, 0, 0});
+        if (frame.needs[Need::detail]) setPores(to, scene.materials[index], scene, frame.geometry.origin);
     }
     std::vector<float> table;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const std::vector<float> lobes = skin::specularLobeTable(roughness[i]);
-        table.insert(table.end(), rows[i].begin(), rows[i].end());
+        const std::vector<float> lobes = skin::specularLobeTable(rows[i].roughness);
+        table.insert(table.end(), albedo[i].begin(), albedo[i].end());
         table.insert(table.end(), lobes.begin(), lobes.end());
     }
+    uploadDetailTile(frame);
     SceneBuffers& buffers = frame.scene.buffers;
     buffers.materials = uploadBuffer(*frame.device, *frame.commands, "materials", materials);
     buffers.albedoTable = uploadBuffer(*frame.device, *frame.commands, "directional albedo", table);
@@ -224,7 +293,8 @@ void uploadMaterials(FrameContext& frame) {
     buffers.skinShines = frame.needs[Need::skinSpecular];
     buffers.layers = (frame.needs[Need::clearcoat] ? shared::LAYER_COAT : 0u) |
                      (frame.needs[Need::sheen] ? shared::LAYER_SHEEN : 0u) |
-                     (frame.needs[Need::transmission] ? shared::LAYER_THROUGH : 0u);
+                     (frame.needs[Need::transmission] ? shared::LAYER_THROUGH : 0u) |
+                     (frame.needs[Need::secondLobe] ? shared::LAYER_SECOND_LOBE : 0u);
 }
 
 void findDrawRanges(FrameContext& frame) {

@@ -248,6 +248,11 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
         shader += "+AOVS";
         bindings.push_back({"aovs", target.aovs});
     }
+    if (skin && !matte && scene.detailTile) {
+        shader += "+DETAIL";
+        bindings.push_back({"RestPositionBuffer", scene.restPositions ? scene.restPositions : scene.positions});
+        bindings.push_back({"detailSlopes", scene.detailSlopes});
+    }
     ShadePush push{tile.origin, tile.pictureSize, matte ? 0 : input.lights->sampleCount, 1.0f, 0, 0};
     for (int i = 0; i < kAovCount; ++i) {
         const auto layer = static_cast<std::uint32_t>(target.aovLayer[i]) & 15u;
@@ -255,7 +260,7 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
     }
     gpu::Specialization constants;
     if (scene.textured()) constants = scene.textureConstants();
-    if (!skin) constants.push_back({3, scene.layers});
+    constants.push_back({3, scene.layers});
     const gpu::Program& program = device.program(shader, constants);
     commands.dispatchIndirect(program, bindings, push, buffers.groups, skin ? 0 : 12);
 }

@@ -133,7 +133,7 @@ class Prefilter {
         gpu::Bindings bindings{{"SourceBuffer", buffer}, {"target", coarse}};
         gpu::Buffer row;
         if (skin) {
-            row = uploaded("albedo row", skin::directionalAlbedoRow(skin->roughness));
+            row = uploaded("albedo row", skin::mixedAlbedoRow(skin->roughness, skin->narrower, skin->weight));
             bindings.push_back({"AlbedoTableBuffer", row});
         }
         const gpu::Program& program = device_.program("environment_irradiance.comp" + variant);

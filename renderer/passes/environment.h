@@ -17,6 +17,7 @@ namespace cutis {
 struct SkinSpecular {
     float roughness = 0.3f;  // m, Beckmann rms slope
     float scale = 1;         // s
+    float narrower = 0, weight = 0;  // m of the second lobe, and its share; both 0: there is none
     bool operator==(const SkinSpecular&) const = default;
 };
 

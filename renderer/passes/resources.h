@@ -55,7 +55,10 @@ struct SceneBuffers {
     std::vector<DrawRange> ranges;
     bool seenThrough = true;  // some range may be blended
     bool skinShines = true;   // some skin may have a specular layer
-    std::uint32_t layers = 0;  // LAYER_ bits, specialization constant 3 of what shades all else
+    std::uint32_t layers = 0;  // LAYER_ bits, specialization constant 3 of what shades
+    gpu::Buffer restPositions;  // of a scene that can move; only with pores
+    gpu::Image detailTile;      // slopes of pores (renderer/skin/detail.h), all levels; only with pores
+    gpu::SampledImage detailSlopes;
     std::uint32_t textureGroups = 0,
                   textureSlots = 0;  // specialization constants 0 and 1 of what samples textures
     gpu::Specialization textureConstants() const { return {{0, textureGroups}, {1, textureSlots}}; }

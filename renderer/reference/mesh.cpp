@@ -5,6 +5,7 @@
 
 #include "renderer/reference/directions.h"
 #include "renderer/reference/textures.h"
+#include "renderer/scene/pose.h"
 
 namespace cutis::reference {
 namespace {
@@ -75,6 +76,7 @@ PlacedScene placeScene(const Scene& scene) {
         placed.origin = scene.bounds.centre();
         placed.radius = 0.5 * glm::length(scene.bounds.size());
     }
+    const std::vector<glm::dmat4> restWorlds = restWorldTransforms(scene);
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         if (scene.nodes[node].mesh < 0) continue;
         for (const Primitive& primitive : scene.meshes[scene.nodes[node].mesh].primitives) {
@@ -82,6 +84,10 @@ PlacedScene placeScene(const Scene& scene) {
             PlacedMesh mesh = place(scene, primitive, scene.nodes[node].world, placed.origin);
             mesh.character = scene.nodeCharacter.empty() ? -1 : scene.nodeCharacter[node];
             mesh.skin = mesh.material->skin.has_value() && mesh.character >= 0;
+            if (mesh.skin && mesh.material->skin->detail > 0) {
+                for (const glm::vec3& p : primitive.restPositions.empty() ? primitive.positions : primitive.restPositions)
+                    mesh.restPositions.emplace_back(restWorlds[node] * glm::dvec4(p, 1));
+            }
             placed.meshes.push_back(std::move(mesh));
         }
     }

@@ -19,6 +19,7 @@ struct PlacedMesh {
     bool skin = false;   // of a character
     std::vector<std::array<float, 4>>
         positions;                         // metres from the scene's centre; the fourth pads for Embree
+    std::vector<glm::dvec3> restPositions;  // world, at rest; only of skin with pores
     std::vector<glm::dvec3> normals;       // unit
     std::vector<glm::dvec4> tangents;      // or empty
     const Primitive* primitive = nullptr;  // texture coordinates and colours

@@ -5,6 +5,7 @@
 #include "renderer/reference/directions.h"
 #include "renderer/reference/layers.h"
 #include "renderer/reference/metallic_roughness.h"
+#include "renderer/reference/pores.h"
 
 namespace cutis::reference {
 namespace {
@@ -30,7 +31,7 @@ SurfacePoint seenPoint(const RayScene& rays, const Hit& hit, const glm::dvec3& v
 }
 
 // L_d = ρ^(1-mix) · M/π · X(N·V), and f_s of all that arrives.
-Shade Shading::shadeSkin(const SurfacePoint& point, const glm::dvec3& view,
+Shade Shading::shadeSkin(const Hit& hit, const SurfacePoint& point, const glm::dvec3& view,
                          const RandomNumbers& random) const {
     const SkinModel& model = diffusion_->modelOf(point);
     const double mu = std::max(glm::dot(point.normal, view), 1e-4);
@@ -39,10 +40,16 @@ Shade Shading::shadeSkin(const SurfacePoint& point, const glm::dvec3& view,
                     (model.exitScale(mu) / kPi);
     if (!(model.material().specular > 0)) return shade;
     thread_local std::vector<Incident> incident;
-    const Lobe lobe{false, model.roughness(), view};
-    lighting_->gather(point, point.normal, &lobe, random.branch(kReflected), incident);
-    for (const Incident& from : incident) {
-        shade.specular += from.irradiance * model.specular(point.normal, view, from.direction);
+    const Pores pores = poresAt(hit, point);
+    const glm::dvec3 n = facing(pores.normal, view, point.smooth);
+    std::uint32_t part = kReflected;
+    for (const SkinModel::SpecularLobe& lobe : model.lobes(pores.removed)) {
+        const Lobe sampled{false, lobe.roughness, view};
+        lighting_->gather(point, n, &sampled, random.branch(part), incident);
+        for (const Incident& from : incident) {
+            shade.specular += from.irradiance * model.specular(lobe, n, view, from.direction);
+        }
+        part = kCoated;
     }
     return shade;
 }
@@ -97,7 +104,7 @@ Shade Shading::shade(const Hit& hit, const glm::dvec3& view, const RandomNumbers
     const Material& material = *point.material;
     if (material.unlit) return {.diffuse = glm::dvec3(point.base)};
     if (!point.mesh->skin) return shadeOther(hit, point, view, random);
-    Shade shade = shadeSkin(point, view, random);
+    Shade shade = shadeSkin(hit, point, view, random);
     shade.diffuse += glm::dvec3(material.emissive) * glm::dvec3(textureAt(hit, material.emissiveTexture));
     return shade;
 }

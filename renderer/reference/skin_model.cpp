@@ -36,8 +36,10 @@ double beyond(const std::vector<SkinModel::Term>& terms, double q) {
 }  // namespace
 
 SkinModel::SkinModel(const SkinMaterial& material, int gaussians)
-    : material_(material), roughness_(std::max(material.roughness, skin::kMinRoughness)) {
-    albedo_ = skin::directionalAlbedoRow(roughness_, kAlbedoEntries);
+    : material_(material),
+      roughness_(std::max(material.roughness, skin::kMinRoughness)),
+      narrower_(std::max(material.roughness * material.lobeRatio, skin::kMinRoughness)) {
+    albedo_ = skin::mixedAlbedoRow(roughness_, narrower_, material.lobeWeight, kAlbedoEntries);
     meanAlbedo_ = skin::meanAlbedo(albedo_, material.specular);
     skin::Profile profile = skin::scaled(skin::sorted(material.profile), material.scale);
     if (gaussians > 0) profile = skin::reduced(profile, gaussians);
@@ -93,9 +95,15 @@ double SkinModel::exitScale(double mu) const {
     return skin::exitScale(material_.specular, skin::lookUpAlbedo(albedo_, mu), meanAlbedo_);
 }
 
-double SkinModel::specular(const glm::dvec3& n, const glm::dvec3& v, const glm::dvec3& l) const {
+std::vector<SkinModel::SpecularLobe> SkinModel::lobes(double removed) const {
+    const auto left = [&](double m) { return std::sqrt(std::max(m * m - removed, 0.25 * m * m)); };
+    if (!(material_.lobeWeight > 0)) return {{1, left(roughness_)}};
+    return {{1 - material_.lobeWeight, left(roughness_)}, {material_.lobeWeight, left(narrower_)}};
+}
+
+double SkinModel::specular(const SpecularLobe& lobe, const glm::dvec3& n, const glm::dvec3& v, const glm::dvec3& l) const {
     const double scale = skin::clampedScale(material_.specular, skin::lookUpAlbedo(albedo_, glm::dot(n, v)));
-    return scale * skin::kelemenSpecular(n, v, l, roughness_);
+    return scale * lobe.share * skin::kelemenSpecular(n, v, l, lobe.roughness);
 }
 
 glm::dvec3 SkinModel::before(const glm::dvec3& albedo) const {

@@ -31,18 +31,22 @@ class SkinModel {
     double transmitted(double mu) const;
     // X(μ): how diffused light leaves by angle.
     double exitScale(double mu) const;
-    // f_s at unit vectors away from the surface, s included, in 1/sr.
-    double specular(const glm::dvec3& n, const glm::dvec3& v, const glm::dvec3& l) const;
+    // A lobe of f_s: its share, and its rms slope where pores show slopes of E|s|² = `removed`.
+    struct SpecularLobe {
+        double share, roughness;
+    };
+    // One of them, or two.
+    std::vector<SpecularLobe> lobes(double removed) const;
+    // That lobe's part of f_s at unit vectors away from the surface, s included, in 1/sr.
+    double specular(const SpecularLobe& lobe, const glm::dvec3& n, const glm::dvec3& v, const glm::dvec3& l) const;
     // ρ^mix and ρ^(1-mix).
     glm::dvec3 before(const glm::dvec3& albedo) const;
     glm::dvec3 after(const glm::dvec3& albedo) const;
 
-    double roughness() const { return roughness_; }  // m
-
   private:
     SkinMaterial material_;
-    double roughness_, meanAlbedo_, reach_ = 0;
-    std::vector<float> albedo_;  // ρ_dt, see skin::directionalAlbedoRow
+    double roughness_, narrower_, meanAlbedo_, reach_ = 0;  // m of both lobes
+    std::vector<float> albedo_;  // ρ_dt of both lobes, see skin::directionalAlbedoRow
     std::vector<Term> terms_;
     std::vector<double> offsets_;  // squared, at equal steps of u: brackets for offsetAt
 };

@@ -112,6 +112,14 @@ std::vector<float> directionalAlbedoRow(double m, int count) {
     return row;
 }
 
+std::vector<float> mixedAlbedoRow(double m, double narrower, double weight, int count) {
+    std::vector<float> row = directionalAlbedoRow(m, count);
+    if (!(weight > 0)) return row;
+    const std::vector<float> second = directionalAlbedoRow(narrower, count);
+    for (int i = 0; i < count; ++i) row[i] = float(row[i] * (1 - weight) + second[i] * weight);
+    return row;
+}
+
 double lookUpAlbedo(std::span<const float> row, double mu) {
     const double x = std::sqrt(std::clamp(mu, 0.0, 1.0)) * double(row.size() - 1);
     const std::size_t i = std::min(std::size_t(x), row.size() - 2);

@@ -163,10 +163,11 @@ vec3 environmentThroughLobe(mat3 frame, vec3 direction, float lobe, uint set) {
     return environmentVisibility(l) * environmentRadianceAt(l, lobe, set);
 }
 
-// Reflected radiance of skin, ∫ L f_s (N·ω) dω: `m` rms slope, `s` specular scale, `row` of the table of roughness m.
+// Radiance that a lobe of skin reflects, ∫ L f_s (N·ω) dω: `m` rms slope, `scale` of f_s, `reflected` of a uniform environment,
+// `row` of the table of roughness m. `narrowed`: by what m is less here than that of the row. 0 where it is not `wanted`.
 // The lobe f_s (N·ω) is the sum of smaller ones that renderer/skin/specular_lobes.h fits, between two rows of μ. Their
 // weights sum to ρ_dt, so a uniform environment is reflected exactly.
-vec3 environmentSpecularSkin(vec3 n, vec3 v, float m, float s, uint row) {
+vec3 environmentSpecularSkin(vec3 n, vec3 v, float m, float narrowed, float scale, float reflected, uint row, bool wanted) {
     float mu = clamp(dot(n, v), 1e-3, 1.0), sine = sqrt(1.0 - mu * mu);
     mat3 surface = frameAlong(n, v);
     mat3 frame = mat3(surface[0] * mu + n * sine, surface[1], n * mu - surface[0] * sine);  // z: mirror direction
@@ -174,17 +175,20 @@ vec3 environmentSpecularSkin(vec3 n, vec3 v, float m, float s, uint row) {
     uint j = min(uint(x), uint(LOBE_ROWS - 2));
     float f = x - float(j);
     uint at = row * uint(SKIN_TABLE_STRIDE) + uint(ALBEDO_ROW_SIZE) + j * uint(LOBE_ROW_SIZE);
-    EnvironmentView map = environmentView(m);
+    m *= narrowed;
+    EnvironmentView map = kNoView;
+    if (wanted) map = environmentView(m);
     vec3 sum = vec3(0.0);
     float total = 0.0;
-    for (int k = 0; k < LOBES_IN_PLANE + LOBE_PAIRS; ++k) {
+    for (int k = 0, end = wanted ? LOBES_IN_PLANE + LOBE_PAIRS : 0; k < end; ++k) {
         float entry[LOBE_FLOATS];
         for (int i = 0; i < LOBE_FLOATS; ++i) {
             entry[i] = mix(ALBEDO_TABLE(at), ALBEDO_TABLE(at + uint(LOBE_ROW_SIZE)), f);
             ++at;
         }
-        vec3 direction = normalize(vec3(entry[0], entry[1], entry[2]));
-        float lobe = environmentLobeNumber(entry[3]);
+        // Angles to the mirror direction go with the slopes.
+        vec3 direction = normalize(vec3(narrowed * vec2(entry[0], entry[1]), entry[2]));
+        float lobe = environmentLobeNumber(narrowed * entry[3]);
         vec3 light = environmentThroughLobe(frame, direction, lobe, map.set);
         if (k >= LOBES_IN_PLANE) {
             vec3 mirrored = vec3(direction.x, -direction.y, direction.z);
@@ -193,9 +197,7 @@ vec3 environmentSpecularSkin(vec3 n, vec3 v, float m, float s, uint row) {
         sum += entry[4] * light;
         total += entry[4];
     }
-    float albedo = directionalAlbedo(mu, row);
-    sum *= min(s * albedo, 1.0) / total;
-    float scale = clampedSpecularScale(s, albedo);
+    sum *= reflected / max(total, 1e-12);
     for (uint i = map.first; i < map.end; ++i) {
         SourceLight source = environmentSource(i);
         float lobe = kelemenSpecular(n, v, source.direction, widenedRoughness(m, source));

@@ -2,6 +2,7 @@
 // Lengths are metres relative to the scene's origin (the centre of its bounds), unless a name says mm.
 #ifndef CUTIS_SHARED_SCENE_H
 #define CUTIS_SHARED_SCENE_H
+#include "shared/detail.h"
 #include "shared/interop.h"
 CUTIS_SHARED_BEGIN
 
@@ -37,10 +38,11 @@ const uint SLOT_TRANSMISSION = 4096u;
 // Of them, the slots that hold normals.
 const uint SLOTS_OF_NORMALS = SLOT_NORMAL | SLOT_COAT_NORMAL;
 
-// Bits of the specialization constant LAYERS: what any material of the scene that is not skin has.
+// Bits of the specialization constant LAYERS: what any material of the scene has.
 const uint LAYER_COAT = 1u;
 const uint LAYER_SHEEN = 2u;
 const uint LAYER_THROUGH = 4u;
+const uint LAYER_SECOND_LOBE = 8u;  // of skin
 
 // A texture as a layer of one of the bound arrays (textures of equal size, format and sampler share an array).
 struct TextureRef {
@@ -65,7 +67,16 @@ struct Material {
     float mix;             // pre/post-scatter mix
     float mmPerUnit;       // millimetres in one scene unit
     float meanAlbedo;      // mean directional albedo at m, not yet multiplied by s
-    uint albedoRow;        // row of the directional-albedo table
+    uint albedoRow;        // row of the directional-albedo table: of both lobes together
+    float slope2;          // m of the second, narrower lobe
+    float lobeWeight;      // its share of the specular layer; 0: there is none
+    uint albedoRow2;       // row of the second lobe alone
+    // Pores (renderer/skin/detail.h)
+    float detailStrength;  // multiplies their slopes
+    float detailTiles;     // tiles a metre
+    vec3 detailOffset;     // place of the scene's origin, in tiles
+    float normalTexels;    // of the normal map; 0: there is none
+    float detailVariance[DETAIL_LEVELS];  // E|s|² that each level shows
     uint matteLayer;       // index of m among the environment's prefiltered matte maps
     // What is not skin (docs/model.md)
     vec3 reflectance;    // of the dielectric at normal incidence, of colour and index of refraction

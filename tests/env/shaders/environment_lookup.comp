@@ -44,7 +44,8 @@ void main() {
     } else if (push.what == 1u) {
         result = textureLod(environmentMatte, vec4(toEnvironment(n), 0.0), 0.0).rgb * environment.intensity;
     } else if (push.what == 2u) {
-        result = environmentSpecularSkin(n, v, push.roughness, push.scale, 0u);
+        float albedo = directionalAlbedo(clamp(dot(n, v), 1e-3, 1.0), 0u), scale = clampedSpecularScale(push.scale, albedo);
+        result = environmentSpecularSkin(n, v, push.roughness, 1.0, scale, scale * albedo, 0u, true);
     } else if (push.what == 3u) {
         result = environmentSpecularGgx(n, v, push.roughness, vec3(push.scale), vec3(1.0), true);
     } else {

@@ -1,0 +1,65 @@
+// Pores: what turns skin's normal where the view comes closer than textures resolve, and the roughness that it takes in
+// exchange (renderer/skin/detail.h). Part of shade.comp.
+#ifndef CUTIS_DETAIL_GLSL
+#define CUTIS_DETAIL_GLSL
+
+#include "shared/detail.h"
+
+// Gradient of the relief at a place in tiles, from the three planes across the axes: weights that fall to nothing where the
+// plane does not face the surface, over their length, which keeps the variance of a sum of independent slopes.
+vec3 detailGradient(vec3 place, vec3 n, float level) {
+    vec3 weight = n * n;
+    weight *= weight;
+    vec2 x = textureLod(detailSlopes, place.yz, level).xy, y = textureLod(detailSlopes, place.zx, level).xy,
+         z = textureLod(detailSlopes, place.xy, level).xy;
+    return (weight.x * vec3(0.0, x) + weight.y * vec3(y.y, 0.0, y.x) + weight.z * vec3(z, 0.0)) / length(weight);
+}
+
+// E|s|² that lookups at this level show.
+float detailVariance(Material material, float level) {
+    float clamped = clamp(level, 0.0, float(DETAIL_LEVELS - 1));
+    int below = min(int(clamped), DETAIL_LEVELS - 2);
+    float kept = 1.0 - (clamped - float(below));
+    kept *= kept;
+    return kept * material.detailVariance[below] + (1.0 - kept) * material.detailVariance[below + 1];
+}
+
+// Columns: along the first edge, across it, normal.
+mat3 triangleFrame(vec3 a, vec3 b, vec3 c) {
+    vec3 n = safeNormalize(cross(b - a, c - a), vec3(0.0, 0.0, 1.0)), t = safeNormalize(b - a, vec3(1.0, 0.0, 0.0));
+    return mat3(t, cross(n, t), n);
+}
+
+// What the normal map of a triangle shows of it: the level whose texels are as wide as the map's. `tiles`: area of the triangle.
+float mappedDetailLevel(Material material, float tiles, VertexAttributes a, VertexAttributes b, VertexAttributes c) {
+    if (!(material.normalTexels > 0.0)) return float(DETAIL_LEVELS - 1);
+    TextureRef ref = material.normalTexture;
+    vec2 e = ref.texCoord == 1 ? b.uv1 - a.uv1 : b.uv0 - a.uv0, f = ref.texCoord == 1 ? c.uv1 - a.uv1 : c.uv0 - a.uv0;
+    float turned = abs(ref.u.x * ref.v.y - ref.u.y * ref.v.x);
+    float texels = abs(e.x * f.y - e.y * f.x) * 0.5 * turned * material.normalTexels;
+    return 0.5 * log2(max(tiles * float(DETAIL_SIZE * DETAIL_SIZE) / max(texels, 1e-12), 1.0));
+}
+
+// The normal with what is resolved of the relief; `removed`: what of E|s|² is so shown, and no longer roughness.
+// posed: the triangle; r: its vertices at rest; w, wx, wy: barycentric, here and one step to the right and below.
+vec3 detailedNormal(Material material, Triangle posed, vec3 ra, vec3 rb, vec3 rc, vec3 w, vec3 wx, vec3 wy,
+                    VertexAttributes va, VertexAttributes vb, VertexAttributes vc, vec3 smoothNormal, vec3 n,
+                    out float removed) {
+    float tiles = material.detailTiles;
+    vec3 place = interpolate(w, ra, rb, rc) * tiles + material.detailOffset;
+    vec3 dx = interpolate(wx - w, ra, rb, rc) * tiles, dy = interpolate(wy - w, ra, rb, rc) * tiles;
+    float longer2 = max(dot(dx, dx), dot(dy, dy)), width2 = max(length(cross(dx, dy)), longer2 / 16.0);
+    float seen = 0.5 * log2(max(width2 * float(DETAIL_SIZE * DETAIL_SIZE), 1.0));
+    float area = 0.5 * length(cross(rb - ra, rc - ra)) * tiles * tiles;
+    float mapped = min(mappedDetailLevel(material, area, va, vb, vc), float(DETAIL_LEVELS - 1));
+    seen = min(seen, mapped);
+    removed = detailVariance(material, seen) - detailVariance(material, mapped);
+    // The relief lies on the skin at rest, and moves with it.
+    mat3 rest = triangleFrame(ra, rb, rc), now = triangleFrame(posed.a, posed.b, posed.c);
+    vec3 restNormal = rest * (smoothNormal * now);
+    vec3 gradient = detailGradient(place, restNormal, seen) - detailGradient(place, restNormal, mapped);
+    gradient = now * (gradient * rest) * material.detailStrength;
+    return normalize(n - (gradient - n * dot(n, gradient)));
+}
+
+#endif
