@@ -17,7 +17,9 @@ namespace cutis {
 // Found by the comparison of documents.
 inline bool operator==(const SkinMaterial& a, const SkinMaterial& b) {
     return a.profile == b.profile && a.scale == b.scale && a.mix == b.mix && a.roughness == b.roughness &&
-           a.specular == b.specular && a.translucency == b.translucency && a.mmPerUnit == b.mmPerUnit;
+           a.specular == b.specular && a.lobeWeight == b.lobeWeight && a.lobeRatio == b.lobeRatio &&
+           a.detail == b.detail && a.detailScale == b.detailScale && a.translucency == b.translucency &&
+           a.mmPerUnit == b.mmPerUnit;
 }
 
 }  // namespace cutis

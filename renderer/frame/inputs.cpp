@@ -101,7 +101,7 @@ InputHashes hashInputs(const FrameContext& frame) {
     for (const GeometryDraw& draw : frame.geometry.draws) pose.add(draw.pose);
     set(Input::pose, pose.value());
     set(Input::textures, hashTextures(frame));
-        ContentHash layer, mix, pores;
+    ContentHash layer, mix, pores;
     for (const int material : skinMaterials(scene, frame.geometry)) {
         const SkinMaterial& skin = *scene.materials[material].skin;
         layer.add(material, skin.roughness, skin.specular, skin.lobeWeight, skin.lobeRatio);

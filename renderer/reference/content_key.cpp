@@ -48,7 +48,8 @@ void addMaterial(Hash& hash, const Scene& scene, const Material& m) {
     hash.add(m.skin.has_value());
     if (!m.skin) return;
     const SkinMaterial& s = *m.skin;
-    hash.add(s.scale, s.mix, s.roughness, s.specular, s.translucency, s.mmPerUnit);
+    hash.add(s.scale, s.mix, s.roughness, s.specular, s.translucency, s.mmPerUnit, s.lobeWeight, s.lobeRatio,
+             s.detail, s.detailScale);
     for (const skin::Gaussian& g : s.profile.gaussians) hash.add(g.variance, g.weight);
 }
 

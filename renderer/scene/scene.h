@@ -66,6 +66,12 @@ struct SkinMaterial {
     double specular = 1;     // s, specular scale, ≥ 0
     bool translucency = true;
     double mmPerUnit = 1000;  // millimetres in one scene unit
+    // A second, narrower lobe of the same layer: f_s = s·((1 - w) f(m) + w f(ratio·m)).
+    double lobeWeight = 0;   // w, in [0,1]; 0: there is none
+    double lobeRatio = 0.5;  // its rms slope over that of the first, in (0,1]
+    // Relief of pores where textures resolve none (skin/detail.h): feeds the specular layer alone.
+    double detail = 0;       // multiplies its slopes, ≥ 0; 0: there is none
+    double detailScale = 8;  // mm after which the relief repeats, > 0
 };
 
 enum class AlphaMode { opaque, mask, blend };

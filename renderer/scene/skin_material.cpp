@@ -84,13 +84,19 @@ std::optional<SkinMaterial> parseSkinMaterial(const JsonView& value) {
     if (value.json().is_boolean()) return value.boolean() ? std::optional(SkinMaterial{}) : std::nullopt;
     if (!value.json().is_object()) value.fail("must be true, false or an object");
     value.allowOnly({fields::kProfile.key, fields::kScale.key, fields::kMix.key, fields::kRoughness.key,
-                     fields::kSpecular.key, fields::kTranslucency.key, fields::kMmPerUnit.key});
+                     fields::kSpecular.key, fields::kLobeWeight.key, fields::kLobeRatio.key,
+                     fields::kDetail.key, fields::kDetailScale.key, fields::kTranslucency.key,
+                     fields::kMmPerUnit.key});
     SkinMaterial skin;
     if (const auto profile = value.find(fields::kProfile.key)) skin.profile = parseProfile(*profile);
     read(value, fields::kScale, skin.scale);
     read(value, fields::kMix, skin.mix);
     read(value, fields::kRoughness, skin.roughness);
     read(value, fields::kSpecular, skin.specular);
+    read(value, fields::kLobeWeight, skin.lobeWeight);
+    read(value, fields::kLobeRatio, skin.lobeRatio);
+    read(value, fields::kDetail, skin.detail);
+    read(value, fields::kDetailScale, skin.detailScale);
     skin.translucency = value.boolean(fields::kTranslucency.key, skin.translucency);
     read(value, fields::kMmPerUnit, skin.mmPerUnit);
     return skin;
@@ -134,6 +140,10 @@ nlohmann::json skinMaterialJson(const SkinMaterial& skin) {
     if (skin.mix != defaults.mix) json[fields::kMix.key] = skin.mix;
     if (skin.roughness != defaults.roughness) json[fields::kRoughness.key] = skin.roughness;
     if (skin.specular != defaults.specular) json[fields::kSpecular.key] = skin.specular;
+    if (skin.lobeWeight != defaults.lobeWeight) json[fields::kLobeWeight.key] = skin.lobeWeight;
+    if (skin.lobeRatio != defaults.lobeRatio) json[fields::kLobeRatio.key] = skin.lobeRatio;
+    if (skin.detail != defaults.detail) json[fields::kDetail.key] = skin.detail;
+    if (skin.detailScale != defaults.detailScale) json[fields::kDetailScale.key] = skin.detailScale;
     if (skin.translucency != defaults.translucency) json[fields::kTranslucency.key] = skin.translucency;
     if (skin.mmPerUnit != defaults.mmPerUnit) json[fields::kMmPerUnit.key] = skin.mmPerUnit;
     return json.empty() ? nlohmann::json(true) : json;
@@ -142,6 +152,7 @@ nlohmann::json skinMaterialJson(const SkinMaterial& skin) {
 std::vector<FieldGroup> skinFields() {
     return {{"Skin",
              {fields::kProfile, fields::kScale, fields::kMix, fields::kRoughness, fields::kSpecular,
+              fields::kLobeWeight, fields::kLobeRatio, fields::kDetail, fields::kDetailScale,
               fields::kTranslucency, fields::kMmPerUnit}},
             {"A Gaussian of a profile", {fields::kVariance, fields::kWeight}}};
 }

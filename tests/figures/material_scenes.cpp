@@ -1,5 +1,5 @@
-// Writes the scene of docs/materials.md: material_scenes FOLDER. materials.glb: a coat, velvet, a glass card
-// over skin, hair cards and an eye.
+// Writes the scenes of docs/materials.md: material_scenes FOLDER. materials.glb: a coat, velvet, a glass card
+// over skin, hair cards and an eye; pores.glb: a finger's breadth of skin with pores and a second lobe.
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -57,9 +57,15 @@ glm::dmat4 at(double x, double y, double z) {
     return glm::translate(glm::dmat4(1), glm::dvec3(x, y, z) * kMm);
 }
 
+SkinMaterial skinOf(double lobeWeight, double detail) {
+    SkinMaterial skin;
+    skin.lobeWeight = lobeWeight, skin.detail = detail;
+    return skin;
+}
+
 Scene materials() {
     SceneBuilder builder;
-    const int skin = builder.addSkin(SkinMaterial(), {0.75, 0.5, 0.42});
+    const int skin = builder.addSkin(skinOf(0, 0), {0.75, 0.5, 0.42});
     builder.addObject("back", makeBox(glm::dvec3(-140, -48, -50) * kMm, glm::dvec3(140, 60, -30) * kMm),
                       skin);
     const auto ball = [](double radius) { return makeSphere(radius * kMm, SphereMapping::latLong); };
@@ -95,6 +101,18 @@ Scene materials() {
     return scene;
 }
 
+Scene pores() {
+    SceneBuilder builder;
+    builder.addObject("plain skin", makeSphere(8 * kMm, SphereMapping::latLong),
+                      builder.addSkin(skinOf(0, 0), {0.75, 0.5, 0.42}), at(-18, 0, 0));
+    builder.addObject("pored skin", makeSphere(8 * kMm, SphereMapping::latLong),
+                      builder.addSkin(skinOf(0, 1), {0.75, 0.5, 0.42}));
+    builder.addObject("two-lobed skin", makeSphere(8 * kMm, SphereMapping::latLong),
+                      builder.addSkin(skinOf(0.35, 0.7), {0.75, 0.5, 0.42}), at(18, 0, 0));
+    builder.setOrthographicCamera(glm::dvec3(0, 0, 100) * kMm, {0, 0, 0}, 56 * kMm);
+    return builder.scene();
+}
+
 }  // namespace
 }  // namespace cutis::test
 
@@ -105,4 +123,5 @@ int main(int argc, char** argv) {
     }
     const std::filesystem::path folder = argv[1];
     cutis::writeGlb(cutis::test::materials(), folder / "materials.glb");
+    cutis::writeGlb(cutis::test::pores(), folder / "pores.glb");
 }

@@ -104,7 +104,8 @@ TEST(GltfMaterial, TextureTransform) {
 TEST(GltfSkinMaterial, ParametersAreRead) {
     const Scene scene = load(fileWith(json::parse(R"({"name": "glass", "extras": {"skin": {
         "profile": [{"variance_mm2": 2, "weight": [0.5, 0, 0]}, {"variance_mm2": 1, "weight": [0.5, 1, 1]}],
-        "scale": 2, "mix": 0.25, "roughness": 0.4, "specular": 0.5, "translucency": false, "mm_per_unit": 10}}})")));
+        "scale": 2, "mix": 0.25, "roughness": 0.4, "specular": 0.5, "translucency": false, "mm_per_unit": 10,
+        "lobe_weight": 0.3, "lobe_ratio": 0.6, "detail": 1.25, "detail_scale": 5}}})")));
     ASSERT_TRUE(scene.materials.at(0).skin);
     const SkinMaterial& skin = *scene.materials[0].skin;
     ASSERT_EQ(skin.profile.gaussians.size(), 2u);
@@ -115,6 +116,10 @@ TEST(GltfSkinMaterial, ParametersAreRead) {
     EXPECT_EQ(skin.specular, 0.5);
     EXPECT_FALSE(skin.translucency);
     EXPECT_EQ(skin.mmPerUnit, 10);
+    EXPECT_EQ(skin.lobeWeight, 0.3);
+    EXPECT_EQ(skin.lobeRatio, 0.6);
+    EXPECT_EQ(skin.detail, 1.25);
+    EXPECT_EQ(skin.detailScale, 5);
     EXPECT_EQ(scene.characters.size(), 1u);
 }
 
@@ -172,6 +177,10 @@ TEST(GltfSkinMaterial, WrongParametersAreRefusedWithTheirPath) {
         {R"({"skin": {"roughness": 0}})", "skin.roughness"},
         {R"({"skin": {"specular": -1}})", "skin.specular"},
         {R"({"skin": {"scale": 0}})", "skin.scale"},
+        {R"({"skin": {"lobe_weight": 1.5}})", "skin.lobe_weight"},
+        {R"({"skin": {"lobe_ratio": 0}})", "skin.lobe_ratio"},
+        {R"({"skin": {"detail": -1}})", "skin.detail"},
+        {R"({"skin": {"detail_scale": 0}})", "skin.detail_scale"},
         {R"({"skin": {"mm_per_unit": -3}})", "skin.mm_per_unit"},
         {R"({"skin": {"translucency": 1}})", "skin.translucency"},
         {R"({"skin": {"profile": "four-layer"}})", "skin.profile"},

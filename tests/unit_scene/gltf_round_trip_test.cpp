@@ -63,6 +63,10 @@ Scene makeScene() {
     skin.skin->profile.gaussians = {{0.1, {0.75, 0.5, 1}}, {3, {0.25, 0.5, 0}}};
     skin.skin->scale = 1.5;
     skin.skin->mmPerUnit = 10;
+    skin.skin->lobeWeight = 0.25;
+    skin.skin->lobeRatio = 0.375;
+    skin.skin->detail = 1.5;
+    skin.skin->detailScale = 12;
     skin.skin->translucency = false;
     Material glass;
     glass.name = "glass";
@@ -179,6 +183,10 @@ void expectSameMaterial(const Scene& a, const Material& m, const Scene& b, const
     EXPECT_EQ(m.skin->mix, n.skin->mix);
     EXPECT_EQ(m.skin->mmPerUnit, n.skin->mmPerUnit);
     EXPECT_EQ(m.skin->translucency, n.skin->translucency);
+    EXPECT_EQ(m.skin->lobeWeight, n.skin->lobeWeight);
+    EXPECT_EQ(m.skin->lobeRatio, n.skin->lobeRatio);
+    EXPECT_EQ(m.skin->detail, n.skin->detail);
+    EXPECT_EQ(m.skin->detailScale, n.skin->detailScale);
 }
 
 TEST(GltfRoundTrip, EverythingComesBack) {

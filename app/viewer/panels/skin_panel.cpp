@@ -113,6 +113,10 @@ void drawParameters(Session& session, std::size_t index) {
     changed |= fieldRow(fields::kMix, skin.mix);
     changed |= fieldRow(fields::kRoughness, skin.roughness);
     changed |= fieldRow(fields::kSpecular, skin.specular);
+    changed |= fieldRow(fields::kLobeWeight, skin.lobeWeight);
+    changed |= fieldRow(fields::kLobeRatio, skin.lobeRatio);
+    changed |= fieldRow(fields::kDetail, skin.detail);
+    changed |= fieldRow(fields::kDetailScale, skin.detailScale);
     changed |= fieldRow(fields::kTranslucency, skin.translucency);
     changed |= fieldRow(fields::kMmPerUnit, skin.mmPerUnit);
     const std::string& name = session.geometry->materials[index].name;
