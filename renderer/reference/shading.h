@@ -21,7 +21,8 @@ class Shading {
     glm::dvec3 irradiance(const Hit& hit, const glm::dvec3& view, const RandomNumbers& random) const;
 
   private:
-    Shade shadeSkin(const Hit& hit, const SurfacePoint& point, const glm::dvec3& view, const RandomNumbers& random) const;
+    Shade shadeSkin(const Hit& hit, const SurfacePoint& point, const glm::dvec3& view,
+                    const RandomNumbers& random) const;
     Shade shadeOther(const Hit& hit, const SurfacePoint& point, const glm::dvec3& view,
                      const RandomNumbers& random) const;
 

@@ -101,7 +101,8 @@ std::vector<SkinModel::SpecularLobe> SkinModel::lobes(double removed) const {
     return {{1 - material_.lobeWeight, left(roughness_)}, {material_.lobeWeight, left(narrower_)}};
 }
 
-double SkinModel::specular(const SpecularLobe& lobe, const glm::dvec3& n, const glm::dvec3& v, const glm::dvec3& l) const {
+double SkinModel::specular(const SpecularLobe& lobe, const glm::dvec3& n, const glm::dvec3& v,
+                           const glm::dvec3& l) const {
     const double scale = skin::clampedScale(material_.specular, skin::lookUpAlbedo(albedo_, glm::dot(n, v)));
     return scale * lobe.share * skin::kelemenSpecular(n, v, l, lobe.roughness);
 }

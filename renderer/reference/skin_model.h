@@ -38,7 +38,8 @@ class SkinModel {
     // One of them, or two.
     std::vector<SpecularLobe> lobes(double removed) const;
     // That lobe's part of f_s at unit vectors away from the surface, s included, in 1/sr.
-    double specular(const SpecularLobe& lobe, const glm::dvec3& n, const glm::dvec3& v, const glm::dvec3& l) const;
+    double specular(const SpecularLobe& lobe, const glm::dvec3& n, const glm::dvec3& v,
+                    const glm::dvec3& l) const;
     // ρ^mix and ρ^(1-mix).
     glm::dvec3 before(const glm::dvec3& albedo) const;
     glm::dvec3 after(const glm::dvec3& albedo) const;

@@ -38,7 +38,8 @@ double clampedScale(double s, double albedo);
 // A row of the table: ρ_dt at μ_i = (i / (count - 1))², which is dense where ρ_dt is steep. count ≥ 2.
 std::vector<float> directionalAlbedoRow(double m, int count = kAlbedoRowSize);
 
-// The row of a layer of two lobes, f_s = (1 - weight)·f(m) + weight·f(narrower): (1 - weight)·ρ_dt(μ, m) + weight·ρ_dt(μ, narrower).
+// The row of a layer of two lobes, f_s = (1 - weight)·f(m) + weight·f(narrower): (1 - weight)·ρ_dt(μ, m) +
+// weight·ρ_dt(μ, narrower).
 std::vector<float> mixedAlbedoRow(double m, double narrower, double weight, int count = kAlbedoRowSize);
 
 // Linear interpolation in √μ, as shaders do.

@@ -48,8 +48,8 @@ vec3 detailedNormal(Material material, Triangle posed, vec3 ra, vec3 rb, vec3 rc
     float tiles = material.detailTiles;
     vec3 place = interpolate(w, ra, rb, rc) * tiles + material.detailOffset;
     vec3 dx = interpolate(wx - w, ra, rb, rc) * tiles, dy = interpolate(wy - w, ra, rb, rc) * tiles;
-    float longer2 = max(dot(dx, dx), dot(dy, dy)), width2 = max(length(cross(dx, dy)), longer2 / 16.0);
-    float seen = 0.5 * log2(max(width2 * float(DETAIL_SIZE * DETAIL_SIZE), 1.0));
+    // Texels as wide as the pixel is long on the skin: nothing is finer than a pixel, at grazing view either.
+    float seen = 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)) * float(DETAIL_SIZE * DETAIL_SIZE), 1.0));
     float area = 0.5 * length(cross(rb - ra, rc - ra)) * tiles * tiles;
     float mapped = min(mappedDetailLevel(material, area, va, vb, vc), float(DETAIL_LEVELS - 1));
     seen = min(seen, mapped);

@@ -6,18 +6,19 @@ layout(constant_id = 3) const uint LAYERS = LAYER_SECOND_LOBE;  // LAYER_ bits: 
 
 // The two lobes of a point's specular layer.
 struct SkinLobes {
-    vec3 n;         // with pores
+    vec3 n;          // with pores
     float narrowed;  // share of the rms slope m that pores leave to the first lobe, and to the second
     float narrowed2;
-    float scale;    // of f_s: s, less where it would reflect more than arrives
+    float scale;     // of f_s: s, less where it would reflect more than arrives
 };
 
+// f_s at specular scale 1.
 float skinSpecular(Material material, SkinLobes lobes, vec3 view, vec3 l) {
     float f = kelemenSpecular(lobes.n, view, l, material.slope * lobes.narrowed);
     if ((LAYERS & LAYER_SECOND_LOBE) != 0u && material.lobeWeight > 0.0) {
         f = mix(f, kelemenSpecular(lobes.n, view, l, material.slope2 * lobes.narrowed2), material.lobeWeight);
     }
-    return f * lobes.scale;
+    return f;
 }
 
 #ifdef ENVIRONMENT
@@ -75,7 +76,8 @@ void shadeSkin(inout Shade shade, Material material, vec2 atlasTexel, float isla
         }
 #endif
         if (cosine <= 0.0 || dot(smoothNormal, from.direction) <= 0.0) continue;
-        shade.specular += from.irradiance * (cosine * visible * skinSpecular(material, lobes, view, from.direction));
+        float f = skinSpecular(material, lobes, view, from.direction);
+        shade.specular += from.irradiance * (cosine * lobes.scale * f * visible);
     }
 #ifdef ENVIRONMENT
     vec4 open = textureLod(openSky, atlasTexel / vec2(textureSize(exitance, 0)), 0.0);
