@@ -101,6 +101,12 @@ bool storeBlock(Primitive& p, const Block& block, std::span<const glm::dmat4> jo
 
 }  // namespace
 
+bool mirrors(std::span<const glm::dmat4> joints) {
+    const auto count = std::count_if(joints.begin(), joints.end(),
+                                     [](const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0; });
+    return 2 * static_cast<std::size_t>(count) > joints.size();
+}
+
 bool deform(Primitive& p, std::span<const double> weights, std::span<const glm::dmat4> joints,
             double farthest) {
     const Deformation& d = *p.deformation;
@@ -115,6 +121,9 @@ bool deform(Primitive& p, std::span<const double> weights, std::span<const glm::
             std::copy(block.positions.begin(), block.positions.end(), positions.begin() + block.first);
         });
         normals = recomputedNormals(p, positions);
+        // Triangles of what its joints mirror are stored the other way round.
+        if (mirrors(joints))
+            for (glm::vec3& n : normals) n = -n;
     }
     std::atomic<bool> fine = true;
     parallelFor(blocks, [&](std::size_t b) {

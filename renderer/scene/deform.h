@@ -14,4 +14,7 @@ namespace cutis {
 bool deform(Primitive& primitive, std::span<const double> weights, std::span<const glm::dmat4> joints,
             double farthest);
 
+// Whether most of these joint matrices make mirror images of what they move.
+bool mirrors(std::span<const glm::dmat4> joints);
+
 }  // namespace cutis

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "renderer/core/error.h"
+#include "renderer/scene/deform.h"
 #include "renderer/scene/gltf_accessors.h"
 #include "renderer/scene/gltf_parts.h"
 
@@ -23,10 +24,30 @@ class MeshReader {
             if (const auto skin = nodeEntry.find("skin")) node.skin = readSkin(*skin, node);
             readWeights(nodeEntry, meshEntry, node);
             node.mesh = meshFor(meshEntry, node);
+            if (node.skin != kNone && jointsMirror(node)) turnOver(scene_.meshes[node.mesh]);
         }
     }
 
   private:
+    // Whether the joints, as they rest, place the mesh in its node as its mirror image.
+    bool jointsMirror(const Node& node) const {
+        const Skin& skin = scene_.skins[node.skin];
+        std::vector<glm::dmat4> matrices;
+        for (std::size_t i = 0; i < skin.joints.size(); ++i)
+            matrices.push_back(glm::inverse(node.world) * scene_.nodes[skin.joints[i]].world *
+                               skin.inverseBind[i]);
+        return mirrors(matrices);
+    }
+
+    // What its joints mirror keeps its front in front. A mesh that deforms belongs to one node.
+    static void turnOver(Mesh& mesh) {
+        for (Primitive& p : mesh.primitives) {
+            if (!p.deformation || p.deformation->firstInfluence.empty()) continue;
+            for (std::size_t i = 0; i + 2 < p.indices.size(); i += 3)
+                std::swap(p.indices[i + 1], p.indices[i + 2]);
+        }
+    }
+
     // The mesh as it is read with a skin of that many joints. One that deforms is copied for every node after
     // the first.
     int meshFor(const JsonView& entry, const Node& node) {

@@ -53,6 +53,17 @@ skin::Profile parseProfile(const JsonView& value) {
     return skin::sorted(profile);
 }
 
+// Of KHR_materials_volume_scatter: how far light gets for each mean free path. Kulla & Conty 2017 give the
+// single-scatter albedo of a medium that looks `color` after many bounces; in a medium of albedo α and mean
+// cosine g light falls off by the effective attenuation √(3 σ_a (σ_a + σ_s (1 - g))) (Ishimaru 1978), σ_s = α
+// σ_t, σ_a = (1 - α) σ_t.
+double reachOfScattering(double color, double g) {
+    const double s =
+        4.09712 + 4.20863 * color - std::sqrt(9.59217 + 41.6808 * color + 17.7126 * color * color);
+    const double absorbed = std::clamp(s * s, 1e-8, 1.0);
+    return 1 / std::sqrt(3 * absorbed * (absorbed + (1 - absorbed) * (1 - g)));
+}
+
 // Light that falls off as exp(-r/ℓ)/(2πℓr) is a mixture of Gaussians whose variances are ℓ²·x², x normally
 // distributed: the nodes of Gauss-Hermite quadrature with six points give the second moment, ⟨r²⟩ = 2ℓ²,
 // exactly.
@@ -107,19 +118,29 @@ std::optional<SkinMaterial> hintedSkin(const JsonView& material) {
     if (!extensions || extensions->find("KHR_materials_transmission")) return std::nullopt;
     const auto diffuse = extensions->find("KHR_materials_diffuse_transmission");
     const auto volume = extensions->find("KHR_materials_volume");
-    const bool scatters = diffuse || extensions->find("KHR_materials_volume_scatter");
-    if (!scatters || !volume || !(volume->number("thicknessFactor", 0) > 0)) return std::nullopt;
+    const auto scatter = extensions->find("KHR_materials_volume_scatter");
+    if (!(diffuse || scatter) || !volume || !(volume->number("thicknessFactor", 0) > 0)) return std::nullopt;
     SkinMaterial skin;
     skin.translucency = !diffuse || diffuse->number("diffuseTransmissionFactor", 0) > 0;
     const auto distance = volume->find("attenuationDistance");  // metres; none: endless
     if (!distance) return skin;
     constexpr double kShortestMm = 0.01, kLongestMm = 100;
-    std::vector<double> color{1, 1, 1};
+    std::vector<double> color{1, 1, 1}, reach{1, 1, 1};  // reach: in mean free paths
     if (const auto given = volume->find("attenuationColor")) color = given->numbers(3);
+    if (scatter) {
+        const double g = std::clamp(scatter->number("scatterAnisotropy", 0), -0.99, 0.99);
+        for (const char* name :
+             {"multiscatterColor", "multiscatterColorFactor"}) {  // of drafts before 2025 and since
+            const auto given = scatter->find(name);
+            if (!given) continue;
+            for (double& c : reach = given->numbers(3)) c = reachOfScattering(std::clamp(c, 0.0, 1.0), g);
+        }
+    }
     glm::dvec3 lengths;
     for (int c = 0; c < 3; ++c) {
         const double depth = -std::log(std::clamp(color[c], 1e-6, 1 - 1e-6));  // optical, of that distance
-        lengths[c] = std::clamp(distance->number() * skin.mmPerUnit / depth, kShortestMm, kLongestMm);
+        lengths[c] =
+            std::clamp(reach[c] * distance->number() * skin.mmPerUnit / depth, kShortestMm, kLongestMm);
     }
     skin.profile = exponentialProfile(lengths);
     return skin;

@@ -139,6 +139,31 @@ TEST(GltfMotion, InverseBindMatrices) {
     EXPECT_NE(errorOf(file).find("matrix 0 is not finite"), std::string::npos) << errorOf(file);
 }
 
+// Joints that mirror a mesh, its node standing as it was, turn its triangles over: their front stays their
+// front. Where node and joints hang on one root that mirrors, the node's transform does that.
+TEST(GltfMotion, MirroredSkeletonsKeepTheFrontInFront) {
+    const auto facing = [](const GltfFile& file) {
+        const Scene scene = load(file);
+        int node = 0;
+        while (scene.nodes[node].mesh < 0) ++node;
+        const Primitive& p = scene.meshes[scene.nodes[node].mesh].primitives[0];
+        glm::dvec3 corner[3];
+        for (int i = 0; i < 3; ++i) corner[i] = worldPosition(scene, node, p.indices[i]);
+        const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+        return glm::determinant(scene.nodes[node].world) < 0 ? -normal.z : normal.z;
+    };
+    GltfFile file = walkingFile();
+    const double front = facing(file);
+    ASSERT_NE(front, 0);
+    file.json["nodes"].push_back({{"scale", {-1, 1, 1}}, {"children", {1}}});
+    const int root = int(file.json["nodes"].size()) - 1;
+    file.json["scenes"][0]["nodes"] = {0, root};
+    EXPECT_NEAR(facing(file), front, 1e-6);
+    file.json["nodes"][root]["children"] = {0, 1};
+    file.json["scenes"][0]["nodes"] = {root};
+    EXPECT_NEAR(facing(file), front, 1e-6);
+}
+
 TEST(GltfMotion, WeightsThatDoNotSumToOneAreScaledWithAWarning) {
     GltfFile file = walkingFile();
     addAttribute<float>(file, "WEIGHTS_0", {1, 0, 0, 0, 0, 0, 0, 0, 2, 2, kNaN, -1}, test::kFloat);
