@@ -168,7 +168,7 @@ TEST(DirectionalAlbedo, rowIsQuick) {
     const auto start = std::chrono::steady_clock::now();
     directionalAlbedoRow(0.3);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    EXPECT_LT(took.count(), 60);  // 4 ms on an idle core
+    EXPECT_LT(took.count(), 250);  // 4 ms on an idle core, some 100 with sanitizers
 }
 
 TEST(ClampedScale, neverExceedsOne) {
