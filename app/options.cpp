@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMaxSide = 16384;                  // pixels
 constexpr std::int64_t kMaxPixels = 1 << 26;     // 1 GiB as float RGBA
-constexpr int kMinAtlas = 8, kMaxAtlas = 16384;  // texels
+constexpr int kMinAtlas = 1, kMaxAtlas = 16384;  // texels
 constexpr int kMaxGaussians = 32, kMaxTaps = 64;
 constexpr double kMaxSeconds = 3.6e6;
 constexpr unsigned kPicture = kRender | kReference;  // the same picture in two ways: the same options
@@ -260,7 +260,8 @@ std::vector<Option> makeOptions() {
 
         {"--sweep", "SWEEP", kMeasure, "Accuracy",
          "The settings to try: quality, lights (1 to 64), characters (1 to 16), size (of the atlas, 256 to "
-         "8192), stability (stiff and extreme cases: is each finite, does it keep its energy, how far is it off), or a "
+         "8192), stability (stiff and extreme cases: is each finite, does it keep its energy, how far is it "
+         "off), or a "
          "JSON file of settings (default: quality)",
          false, [](Request& r, const std::string& text) { r.sweep = parseText(text); }},
         {"--repeats", "N", kMeasure, "Accuracy",
@@ -308,7 +309,8 @@ std::vector<Option> makeOptions() {
              r.environmentRotation = parseField(text, fields::kRotation);
          }},
         {"--exposure", "EV", kViewer, view, helpOf(fields::kExposure) + ", added to the rig's (default: 0)",
-         false, [](Request& r, const std::string& text) { r.exposure = parseField(text, fields::kExposure); }},
+         false,
+         [](Request& r, const std::string& text) { r.exposure = parseField(text, fields::kExposure); }},
         {"--background", "NAME", kRender | kViewer, view,
          "What lies behind the scene: none, env, the environment, or blurred. Alpha stays the coverage "
          "(default: none)",
@@ -326,24 +328,30 @@ std::vector<Option> makeOptions() {
          false, [](Request& r, const std::string& text) { r.camera = parseText(text); }},
 
         {"--animation", "ANIMATION", kView, view,
-         "The pose of this animation of the scene, by its name or its number from 0 (default: with --time or --frames the "
+         "The pose of this animation of the scene, by its name or its number from 0 (default: with --time or "
+         "--frames the "
          "first, else the scene rests)",
          false, [](Request& r, const std::string& text) { r.animation = parseText(text); }},
         {"--time", "S", kView, view, "Seconds from where the animation begins (default: 0)", false,
          [](Request& r, const std::string& text) { r.time = parseNumber(text, 0, kMaxSeconds); }},
         {"--frames", "A-B", kRender, view,
-         "Pictures of these frames of the animation, one a file: -o OUT.%04d.png puts the frame's number there", false,
-         parseFrames},
+         "Pictures of these frames of the animation, one a file: -o OUT.%04d.png puts the frame's number "
+         "there",
+         false, parseFrames},
         {"--fps", "N", kRender, view, "Frames a second: frame F shows the time F / N (default: 24)", false,
          [](Request& r, const std::string& text) { r.fps = parseNumber(text, kMinFps, kMaxFps); }},
 
         {"--skin", "GLOB", kView | kSkinExport, quality,
-         "Materials whose names match are skin, or 'none', or a file that ends in .json says so, as the viewer saves it (default: those marked in the file, else those "
+         "Materials whose names match are skin, or 'none', or a file that ends in .json says so, as the "
+         "viewer saves it (default: those marked in the file, else those "
          "named like "
          "skin, head, face or body)",
          false, [](Request& r, const std::string& text) { r.skin = parseText(text); }},
         {"--irradiance-size", "N", kPicture | kPlan | kCompare | kViewer, quality,
-         "The irradiance atlas is exactly N×N texels (default: chosen from the picture)", false,
+         "The irradiance atlas is exactly N×N texels; below 8 it has 8 and skin takes N of them (default: "
+         "chosen from the "
+         "picture)",
+         false,
          [](Request& r, const std::string& text) {
              r.settings.irradianceSize = static_cast<int>(parseInteger(text, kMinAtlas, kMaxAtlas));
          }},

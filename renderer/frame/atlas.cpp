@@ -13,6 +13,10 @@
 namespace cutis {
 namespace {
 
+// A chart of up to two texels with the room around it; what errors look for a size up to.
+constexpr int kLeastAtlas = 8, kLargestAtlas = 16384;
+constexpr double kLeastScale = 1e-12;  // of charts, at which all are less than a texel
+
 double mmPerUnitOf(const Scene& scene, int material) {
     return scene.materials[material].skin->mmPerUnit;
 }
@@ -147,19 +151,51 @@ std::vector<AtlasChart> collectCharts(const Scene& scene, const SkinMesh& mesh, 
     return charts;
 }
 
-void packIntoExactly(std::vector<ChartShape>& shapes, int size) {
-    // The largest common scale that fits, by bisection of its logarithm.
-    double low = 1e-12, high = 1e12;
-    if (!packCharts(shapes, size, low)) {
-        throw Error("cannot lay out the atlas",
-                    std::to_string(shapes.size()) + " charts do not fit " + std::to_string(size) + " x " +
-                        std::to_string(size) + " texels", "--irradiance-size");
+// The most texels that skin takes along either side of its chart.
+double widestChart(const std::vector<ChartShape>& shapes) {
+    double widest = 0;
+    for (const ChartShape& shape : shapes) {
+        glm::dvec2 low(std::numeric_limits<double>::infinity()), high(0);
+        for (const IslandShape& island : shape.islands) {
+            low = glm::min(low, island.place);
+            high = glm::max(high,
+                            island.place + (island.uvMax - island.uvMin) * shape.texelsPerUv * island.scale);
+        }
+        widest = std::max({widest, high.x - low.x, high.y - low.y});
     }
+    return widest;
+}
+
+std::string bySquares(int size) {
+    return std::to_string(size) + " x " + std::to_string(size);
+}
+
+[[noreturn]] void failToFit(std::vector<ChartShape>& shapes, int size) {
+    std::string why = std::to_string(shapes.size()) + " charts do not fit " + bySquares(size) + " texels";
+    for (int larger = 2 * kLeastAtlas; larger <= kLargestAtlas; larger *= 2) {
+        if (!packCharts(shapes, larger, kLeastScale)) continue;
+        why += ", but " + bySquares(larger);
+        break;
+    }
+    throw Error("cannot lay out the atlas", why, "--irradiance-size");
+}
+
+// Returns the atlas' size: the one asked for, but where that leaves no room for a gutter: then the least that
+// has it, with skin on as few of its texels as asked.
+int packIntoExactly(std::vector<ChartShape>& shapes, int asked) {
+    const int size = std::max(asked, kLeastAtlas);
+    const auto fits = [&](double scale) {
+        return packCharts(shapes, size, scale) && (asked == size || widestChart(shapes) <= asked);
+    };
+    // The largest common scale that fits, by bisection of its logarithm.
+    double low = kLeastScale, high = 1 / kLeastScale;
+    if (!fits(low)) failToFit(shapes, asked);
     while (high / low > 1.0005) {
         const double middle = std::sqrt(low * high);
-        (packCharts(shapes, size, middle) ? low : high) = middle;
+        (fits(middle) ? low : high) = middle;
     }
     packCharts(shapes, size, low);
+    return size;
 }
 
 // Gives every vertex its place, and every triangle at a border its entry in borderTriangles.
@@ -243,8 +279,7 @@ Atlas layOutAtlas(const Scene& scene, const SkinMesh& mesh, Geometry& geometry, 
     if (shapes.empty()) return atlas;
     if (options.size == 0) atlas.size = packSmallest(shapes, options.maxSize);
     if (atlas.size == 0) {
-        atlas.size = options.size > 0 ? options.size : options.maxSize;
-        packIntoExactly(shapes, atlas.size);
+        atlas.size = packIntoExactly(shapes, options.size > 0 ? options.size : options.maxSize);
     }
     for (std::size_t c = 0; c < shapes.size(); ++c) atlas.charts[c].rect = shapes[c].rect;
     placeVertices(geometry, mesh, shapes, atlas);

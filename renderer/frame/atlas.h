@@ -29,7 +29,7 @@ struct Atlas {
 };
 
 struct AtlasOptions {
-    int size = 0;                            // exactly this; 0: chosen
+    int size = 0;  // exactly this, or 8 with skin on so few of its texels; 0: chosen
     std::vector<double> mmPerTexelWanted = {};  // a character; used when size is 0
     std::vector<double> reachMm = {};        // a material: how far skin's light is looked for beyond an island's border
     int maxSize = 4096;                      // bound when size is 0

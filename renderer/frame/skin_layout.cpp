@@ -19,6 +19,9 @@ constexpr int kMergeRounds = 4;  // small parts within small parts
 // A triangle is squeezed when it has this much less of the layout than its surface would have on average, and
 // an island is when so much of its surface is.
 constexpr double kSqueezed = 1e-3, kMostSqueezed = 0.05;
+// Directions u and v of an island lie so close to each other on the surface, as the sine between them, that
+// the rectangle around it holds next to nothing but gaps: an atlas for it would have many times the texels.
+constexpr double kLeastSine = 0.05;
 // More islands than this, of fewer triangles each on average, are no layout.
 constexpr std::uint32_t kManyIslands = 4096, kFewTriangles = 32;
 
@@ -94,6 +97,29 @@ std::vector<bool> findSqueezed(const Islands& islands) {
     for (std::uint32_t i = 0; i < islands.count; ++i)
         result.push_back(squeezed[i] > kMostSqueezed * surface[i]);
     return result;
+}
+
+// Islands whose layout is sheared beyond kLeastSine on the whole.
+std::vector<bool> findSheared(const Primitive& primitive, const Islands& islands) {
+    const std::vector<glm::vec3>& positions = restOf(primitive);
+    // ΣdP/du·dP/du, ΣdP/du·dP/dv, ΣdP/dv·dP/dv, by area in the layout.
+    std::vector<glm::dvec3> sums(islands.count, glm::dvec3(0));
+    for (std::size_t t = 0; t < islands.of.size(); ++t) {
+        const double turned = islands.turned[t];
+        if (turned == 0) continue;
+        const std::uint32_t* v = &primitive.indices[t * 3];
+        const glm::dvec3 p = positions[v[0]];
+        const glm::dvec3 p1 = glm::dvec3(positions[v[1]]) - p, p2 = glm::dvec3(positions[v[2]]) - p;
+        const glm::dvec2 uv = primitive.uv0[v[0]];
+        const glm::dvec2 e1 = glm::dvec2(primitive.uv0[v[1]]) - uv, e2 = glm::dvec2(primitive.uv0[v[2]]) - uv;
+        const glm::dvec3 du = (p1 * e2.y - p2 * e1.y) / turned, dv = (p2 * e1.x - p1 * e2.x) / turned;
+        sums[islands.of[t]] +=
+            std::abs(turned) * glm::dvec3(glm::dot(du, du), glm::dot(du, dv), glm::dot(dv, dv));
+    }
+    std::vector<bool> sheared;
+    for (const glm::dvec3& sum : sums)
+        sheared.push_back(sum.y * sum.y > (1 - kLeastSine * kLeastSine) * sum.x * sum.z);
+    return sheared;
 }
 
 // Of the triangles that `anew` leaves out: lengths in the layout of one on the surface. 0: there are none.
@@ -230,10 +256,14 @@ SkinLayout layOutSkin(const Primitive& primitive) {
     if (islands.count > kManyIslands && triangleCount < std::size_t(kFewTriangles) * islands.count) {
         cause = "are cut into " + std::to_string(islands.count) + " islands";
     } else {
-        const std::vector<bool> squeezed = findSqueezed(islands);
-        for (std::size_t t = 0; t < triangleCount; ++t) anew[t] = squeezed[islands.of[t]];
-        const bool any = std::find(squeezed.begin(), squeezed.end(), true) != squeezed.end();
-        if (any) cause = "leave parts of the surface no room";
+        const std::vector<bool> squeezed = findSqueezed(islands), sheared = findSheared(primitive, islands);
+        for (std::size_t t = 0; t < triangleCount; ++t)
+            anew[t] = squeezed[islands.of[t]] || sheared[islands.of[t]];
+        const auto any = [](const std::vector<bool>& of) {
+            return std::find(of.begin(), of.end(), true) != of.end();
+        };
+        if (any(sheared)) cause = "are sheared";
+        if (any(squeezed)) cause = "leave parts of the surface no room";
     }
     for (std::size_t i = 0; i < places.size(); ++i) places[i] = primitive.uv0[primitive.indices[i]];
     std::uint32_t count = 0;

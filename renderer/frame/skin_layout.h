@@ -26,9 +26,8 @@ struct SkinLayout {
 // Islands of a primitive, in the pose at rest:
 // - folded ones (mirrored halves that share one half of the texture) are cut where they fold,
 // - other ones that lie upon themselves are cut into parts that do not,
-// - those without texture coordinates, or squeezed into points and lines, are laid out anew (frame/unwrap.h),
-// as is a
-//   primitive whose every few triangles are an island.
+// - those without texture coordinates, squeezed into points and lines, or sheared, are laid out anew
+//   (frame/unwrap.h), as is a primitive whose every few triangles are an island.
 SkinLayout layOutSkin(const Primitive& primitive);
 
 }  // namespace cutis

@@ -84,7 +84,7 @@ Setting readSetting(const JsonView& entry, std::set<std::string>& names) {
     if (setting.name.empty() || setting.name.size() > 100)
         entry.member("name").fail("must have 1 to 100 characters");
     if (!names.insert(setting.name).second) entry.member("name").fail("another setting has this name");
-    setting.irradianceSize = readInteger(entry, "irradiance_size", 0, 8, kMaxAtlas);
+    setting.irradianceSize = readInteger(entry, "irradiance_size", 0, 1, kMaxAtlas);
     setting.gaussians = readInteger(entry, "gaussians", 0, 1, kMaxGaussians);
     setting.lightMapSize = readInteger(entry, "light_map_size", 0, 16, kMaxLightMap);
     setting.areaSamples = readInteger(entry, "area_samples", 0, 1, kMaxSamples);

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -25,7 +26,8 @@ namespace {
 
 using codec::Operation;
 
-constexpr std::uint32_t kLeastSeconds = 5;
+// What damaged files may take is 5 s in all.
+constexpr std::uint32_t kLeastSeconds = 4;
 constexpr std::uint64_t kBytesASecond = 2'000'000;
 constexpr std::uint64_t kSpareMemory = std::uint64_t(512) << 20;
 
@@ -51,6 +53,21 @@ struct SocketPair {
     int ends[2];
 };
 
+// Our end of the conversation with one process.
+class Socket {
+  public:
+    explicit Socket(int descriptor) : descriptor_(descriptor) {}
+    ~Socket() { ::close(descriptor_); }
+    Socket(const Socket&) = delete;
+    Socket& operator=(const Socket&) = delete;
+    int descriptor() const { return descriptor_; }
+
+  private:
+    int descriptor_;
+};
+// Closed when the last who uses it is done: until then no other gets its number.
+using SharedSocket = std::shared_ptr<const Socket>;
+
 class Process {
   public:
     static Process& instance() {
@@ -59,9 +76,9 @@ class Process {
     }
 
     // The socket to a running process; another one when the last was found dead.
-    int socket(int dead = -1) {
+    SharedSocket socket(const SharedSocket& dead = nullptr) {
         const std::lock_guard lock(mutex_);
-        if (socket_ < 0 || socket_ == dead) start();
+        if (!socket_ || socket_ == dead) start();
         return socket_;
     }
 
@@ -80,22 +97,22 @@ class Process {
         if (error) throw Error("cannot start the image codec", std::strerror(error), path);
         std::erase_if(started_, [](pid_t ended) { return ::waitpid(ended, nullptr, WNOHANG) != 0; });
         started_.push_back(pid);
-        // The socket of a dead process stays open, so that no other gets its number while somebody may use
-        // it.
-        socket_ = std::exchange(pair.ends[0], -1);
+        socket_ = std::make_shared<const Socket>(std::exchange(pair.ends[0], -1));
     }
 
     std::mutex mutex_;
-    int socket_ = -1;
-    std::vector<pid_t> started_;  // and not seen to end: one that has ended is kept by the system until somebody asks for it
+    SharedSocket socket_;
+    std::vector<pid_t>
+        started_;  // and not seen to end: one that has ended is kept by the system until somebody asks for it
 };
 
-bool converse(int socket, const codec::Request& request, std::span<const std::byte> data,
+bool converse(const Socket& socket, const codec::Request& request, std::span<const std::byte> data,
               codec::Parcel<codec::Reply>& reply) {
     SocketPair pair;
     SharedBytes given(data.size());
     if (!data.empty()) std::memcpy(given.data(), data.data(), data.size());
-    if (!codec::send(socket, codec::Parcel<codec::Request>{request, {pair.ends[1], given.descriptor()}}))
+    if (!codec::send(socket.descriptor(),
+                     codec::Parcel<codec::Request>{request, {pair.ends[1], given.descriptor()}}))
         return false;
     ::close(std::exchange(pair.ends[1], -1));
     return codec::receive(pair.ends[0], reply);
@@ -103,7 +120,8 @@ bool converse(int socket, const codec::Request& request, std::span<const std::by
 
 bool hasMadeSense(const codec::Request& request, const codec::Reply& reply) {
     const PixelLayout& layout = reply.layout;
-    const bool decoded = request.operation != Operation::encode && request.operation != Operation::decodeDraco;
+    const bool decoded =
+        request.operation != Operation::encode && request.operation != Operation::decodeDraco;
     return !decoded || (layout.width > 0 && layout.width <= request.limits.width && layout.height > 0 &&
                         layout.height <= request.limits.height && layout.channels > 0 &&
                         layout.channels <= request.limits.channels && layout.bytes() == reply.dataBytes);
@@ -115,10 +133,10 @@ CodecResult perform(codec::Request request, std::uint64_t fileBytes, std::span<c
         kLeastSeconds + static_cast<std::uint32_t>(std::min<std::uint64_t>(fileBytes / kBytesASecond, 3600));
     request.memoryBytes = 2 * (request.limits.bytes + data.size()) + kSpareMemory;
     codec::Parcel<codec::Reply> reply;
-    const int first = Process::instance().socket();
+    const SharedSocket first = Process::instance().socket();
     // The process itself may have been killed meanwhile: then once more with a new one.
-    if (!converse(first, request, data, reply) &&
-        !converse(Process::instance().socket(first), request, data, reply)) {
+    if (!converse(*first, request, data, reply) &&
+        !converse(*Process::instance().socket(first), request, data, reply)) {
         return {"the image codec has gone", {}, {}};
     }
     reply.message.why.back() = '\0';

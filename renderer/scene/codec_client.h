@@ -25,8 +25,9 @@ struct CodecResult {
 void startCodec();
 
 // Any thread may call these. `format`: as OpenImageIO names it ("png"). Work that crashes, takes longer than
-// 5 s of processor time and one for every 2 MB, or takes more memory than twice what the limits allow and 512
-// MiB, has failed and says so. Throws Error when the process cannot be started.
+// 4 s of processor time, one for every 2 MB of the file and one for every 150 MB that it has decoded, or
+// takes more memory than twice what the limits allow and 512 MiB, has failed and says so. Throws Error when
+// the process cannot be started.
 CodecResult decodeImageMemory(std::span<const std::byte> file, const std::string& format, const PixelLimits&);
 CodecResult decodeImageFile(const std::string& path, const PixelLimits&);
 // The block that codec/draco_codec.h describes, of up to `maxBytes`.

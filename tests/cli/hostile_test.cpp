@@ -12,6 +12,7 @@
 #include "renderer/scene/gltf_writer.h"
 #include "renderer/scene/picture.h"
 #include "tests/cli/program.h"
+#include "tests/support/lying_png.h"
 #include "tests/support/pictures.h"
 #include "tests/unit_scene/gltf_file.h"
 
@@ -24,33 +25,10 @@ using Json = nlohmann::json;
 constexpr double kMostSeconds = 5;                // of processor time
 constexpr std::uint64_t kMostBytes = 1ull << 30;  // resident
 
-std::string bigEndian(std::uint32_t value) {
-    std::string bytes;
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
-    return bytes;
-}
-
 std::string littleEndian(std::uint32_t value) {
-    std::string bytes = bigEndian(value);
-    std::reverse(bytes.begin(), bytes.end());
+    std::string bytes;
+    for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 255);
     return bytes;
-}
-
-// A chunk of a PNG (ISO/IEC 15948, 5.3), its checksum right, so that decoders believe it.
-std::string pngChunk(const std::string& typeAndData) {
-    std::uint32_t crc = 0xffffffffu;
-    for (const unsigned char byte : typeAndData) {
-        crc ^= byte;
-        for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
-    }
-    return bigEndian(static_cast<std::uint32_t>(typeAndData.size()) - 4) + typeAndData + bigEndian(~crc);
-}
-
-// RGBA; its data, one compressed pixel, ends long before it should.
-std::string lyingPng(std::uint32_t side, char bits) {
-    const std::string header = bigEndian(side) + bigEndian(side) + bits + std::string("\x06\0\0\0", 4);
-    const std::string data("\x78\x9c\x63\x60\x60\x60\x60\x00\x00\x00\x05\x00\x01", 13);
-    return "\x89PNG\r\n\x1a\n" + pngChunk("IHDR" + header) + pngChunk("IDAT" + data) + pngChunk("IEND");
 }
 
 // Skin of one triangle, its base colour an image.

@@ -103,6 +103,12 @@ Primitive woundStrip() {
     return mesh.finish();
 }
 
+// Its rectangle would be empty but for a thousandth.
+Primitive sheared(Primitive body) {
+    for (glm::vec2& uv : body.uv0) uv.x += 1000 * uv.y;
+    return body;
+}
+
 void expectOwned(const char* name, const Primitive& skin) {
     const Laid laid = layOut(skin);
     expectAtMost(std::string("texels claimed twice, ") + name, sharedTexels(laid), 0.0005);
@@ -118,6 +124,7 @@ TEST(AtlasLayout, OwnsEveryTexelOnce) {
     expectOwned("closed ball", closedBall());
     expectOwned("wound strip", woundStrip());
     expectOwned("ball squeezed into a point", squeezed(latLongBall()));
+    expectOwned("sheared ball", sheared(latLongBall()));
     expectOwned("ball without texture coordinates", bare(latLongBall()));
     expectOwned("shattered ball", shattered(latLongBall()));
 }

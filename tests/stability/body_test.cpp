@@ -86,8 +86,44 @@ Primitive joined(Primitive a, Primitive b, const glm::vec3& offset) {
     return a;
 }
 
+// The sphere without a shared vertex: three for each triangle.
+Primitive withoutSharedVertices() {
+    const Primitive shared = sphere();
+    Primitive mesh;
+    for (const std::uint32_t i : shared.indices) {
+        mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+        mesh.positions.push_back(shared.positions[i]);
+        mesh.normals.push_back(shared.normals[i]);
+        mesh.uv0.push_back(shared.uv0[i]);
+    }
+    return mesh;
+}
+
+// The sphere under a flat normal map, for which its tangents do not serve.
+RenderJob withTangents(const glm::vec4& tangent) {
+    RenderJob job = sphereJob(SceneBuilder::plainSkin());
+    Image flat;
+    flat.width = flat.height = 1;
+    flat.texels = {std::byte(128), std::byte(128), std::byte(255), std::byte(255)};
+    job.scene.images.push_back(flat);
+    Texture texture;
+    texture.image = 0;
+    job.scene.textures.push_back(texture);
+    job.scene.materials[0].normalTexture.texture = 0;
+    Primitive& mesh = job.scene.meshes[0].primitives[0];
+    mesh.tangents.assign(mesh.positions.size(), tangent);
+    return inUniformLight(job);
+}
+
 std::vector<Extreme> meshes() {
-    return {body("self_intersecting",
+    return {body("vertices_not_shared", withoutSharedVertices, Bounds3::near(1, kFurnace)),
+            {"tangents_of_zero", [] { return withTangents(glm::vec4(0)); }, Bounds3::near(1, kFurnace)},
+            {"tangents_along_normals",
+             [] {
+                 return withTangents({0, 0, 1, 1});
+             },
+             Bounds3::near(1, kFurnace)},
+            body("self_intersecting",
                  [] {
                      return joined(sphere(), sphere(80 * kMm), {0.05f, 0, 0});
                  }),

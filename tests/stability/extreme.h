@@ -37,13 +37,14 @@ struct Extreme {
     std::function<glm::dvec3(const glm::dvec3& normal)> exact = {};
     // Pixels that see the surface at this N·V or more are held to the bounds.
     double leastCosine = 0.2;
-    int leastPixels = 100;  // so many
+    int leastPixels = 100;  // so many, or all
 };
 
 void PrintTo(const Extreme& extreme, std::ostream* out);
 
 // Renders the case and checks all of it. Prints name, least and most radiance, error where something is
-// known, and seconds.
+// known, and seconds. Where CUTIS_STABILITY_PICTURES names a folder, the picture is left there, to be looked
+// at.
 void check(const Extreme& extreme);
 
 // A picture of 48 x 48 pixels, 0.21 m across, seen from +Z.

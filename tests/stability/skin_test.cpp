@@ -140,8 +140,8 @@ std::vector<Extreme> profiles() {
     // Wide ones that nothing leads up to, seen as the light of one side spreads to the other. Far wider than
     // the body light is even over it; in the atlas poles hold more texels than they have surface, and borders
     // are not crossed all the way.
-    cases.push_back(sideLit("side_lit_variance_1e2", 1e2, 0.01));
-    cases.push_back(sideLit("side_lit_variance_1e4", 1e4, 0.2));
+    cases.push_back(sideLit("side_lit_variance_1e2", 1e2, 0.0055));
+    cases.push_back(sideLit("side_lit_variance_1e4", 1e4, 0.195));
     cases.push_back(sideLit("side_lit_variance_1e6", 1e6, 0.35));
     cases.push_back(furnace("one_gaussian", skinOf({1.0})));
     cases.push_back(furnace("sixteen_gaussians", skinOf({1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06, 0.1, 0.2, 0.4,

@@ -8,12 +8,16 @@
 #include <cstdlib>
 #include <fstream>
 #include <future>
+#include <optional>
+#include <span>
+#include <string>
 #include <thread>
 
 #include "renderer/core/error.h"
 #include "renderer/scene/codec_client.h"
 #include "renderer/scene/image_io.h"
 #include "renderer/scene/picture.h"
+#include "tests/support/lying_png.h"
 #include "tests/support/process.h"
 
 namespace cutis {
@@ -104,6 +108,85 @@ TEST(Codec, StartsAgainWhenItWasKilled) {
     std::this_thread::sleep_for(50ms);
     expectWorks(png);
     EXPECT_NE(codecProcess(), codec);
+}
+
+// The program under tests/support/bad_decoder.cpp, for the time that this lives.
+class BadDecoder {
+  public:
+    explicit BadDecoder(const char* kind) {
+        ::setenv("LD_PRELOAD", CUTIS_BAD_DECODER_LIBRARY, 1);
+        ::setenv("CUTIS_BAD_DECODER", kind, 1);
+        endCodec();
+    }
+    ~BadDecoder() {
+        ::unsetenv("LD_PRELOAD");
+        ::unsetenv("CUTIS_BAD_DECODER");
+        endCodec();
+    }
+
+  private:
+    static void endCodec() {
+        if (const pid_t codec = codecProcess()) ::kill(codec, SIGKILL);
+        std::this_thread::sleep_for(50ms);
+    }
+};
+
+// Of processor time that a process has taken so far, or nothing when it is gone (proc(5), stat).
+std::optional<double> secondsOf(pid_t process) {
+    std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+    std::string field;
+    for (int i = 1; i <= 13; ++i) stat >> field;
+    double user = 0, system = 0;
+    if (!(stat >> user >> system)) return {};
+    return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
+// Its file claims a gigabyte of samples, which gives it no time.
+TEST(Codec, ADecoderThatSpinsIsEndedWithinFiveSeconds) {
+    const std::vector<std::byte> png = smallPng();
+    {
+        const BadDecoder bad("spin");
+        const std::string file = test::lyingPng(16384, 8);
+        auto refused = std::async(std::launch::async, [&] {
+            return decodeImageMemory(std::as_bytes(std::span(file)), "png", kLimits);
+        });
+        const std::vector<pid_t> workers = awaitWorkers(true);
+        ASSERT_EQ(workers.size(), 1u);
+        double seconds = 0;
+        while (const std::optional<double> now = secondsOf(workers[0])) {
+            seconds = *now;
+            std::this_thread::sleep_for(10ms);
+        }
+        EXPECT_GT(seconds, 3) << "it did not spin";
+        EXPECT_LT(seconds, 5);
+        EXPECT_NE(refused.get().why.find("too long"), std::string::npos);
+    }
+    expectWorks(png);
+}
+
+TEST(Codec, ADecoderThatCrashesIsRefused) {
+    const std::vector<std::byte> png = smallPng();
+    {
+        const BadDecoder bad("crash");
+        const CodecResult result = decodeImageMemory(png, "png", kLimits);
+        EXPECT_EQ(result.why, "its decoder crashed (Segmentation fault)");
+    }
+    expectWorks(png);
+}
+
+TEST(Codec, OneThatCannotStartIsSaidAndLeavesNothingOpen) {
+    const std::vector<std::byte> png = smallPng();
+    const auto open = [] {
+        return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+    };
+    {
+        const BadDecoder bad("end");
+        EXPECT_EQ(decodeImageMemory(png, "png", kLimits).why, "the image codec has gone");
+        const auto before = open();
+        for (int i = 0; i < 10; ++i) EXPECT_NE(decodeImageMemory(png, "png", kLimits).why, "");
+        EXPECT_EQ(open(), before);
+    }
+    expectWorks(png);
 }
 
 // As on a machine of 200 cores, each of which would have a thread with a stack and a heap of its own.

@@ -130,6 +130,14 @@ const BrokenRule kBrokenRules[] = {
          f.json["materials"] = json::parse(R"([{"name": "Head_Skin"}])");
          primitive(f)["material"] = 0;
      }},
+    {"taken as skin by its diffuse transmission and volume",
+     [](GltfFile& f) {
+         f.json["extensionsUsed"] = {"KHR_materials_diffuse_transmission", "KHR_materials_volume"};
+         f.json["materials"] = json::parse(
+             R"([{"extensions": {"KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5},
+                                 "KHR_materials_volume": {"thicknessFactor": 0.01}}}])");
+         primitive(f)["material"] = 0;
+     }},
     {"skin that is inside out is turned over", [](GltfFile& f) { makeTetrahedron(f, true, -1); }},
     {"normals that point into skin are turned", [](GltfFile& f) { makeTetrahedron(f, false, -1); }},
     {"has no texture coordinates: its skin is laid out anew",

@@ -11,8 +11,10 @@
 #include "renderer/scene/picture.h"
 #include "renderer/scene/rig.h"
 #include "tests/cli/program.h"
+#include "tests/support/lying_png.h"
 #include "tests/support/render.h"
 #include "tests/support/surfaces.h"
+#include "tests/unit_scene/gltf_file.h"
 
 namespace cutis::test {
 namespace {
@@ -260,6 +262,49 @@ TEST_F(ScreenInTrouble, WhenTheWindowsDeviceIsLostTheRigIsRecovered) {
     ASSERT_TRUE(std::filesystem::is_regular_file(left)) << run.err;
     expectBrighter(left);
 }
+
+// A scene whose image makes its decoder spin or crash is refused, and nothing else is lost by it.
+class ScreenAndBadDecoder : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(ScreenAndBadDecoder, TheRigIsKept) {
+    const auto& [kind, why] = GetParam();
+    const TemporaryFolder folder;
+    const std::string scene = folder / "heads.glb", rigFile = folder / "heads.rig.json",
+                      bad = folder / "bad.glb";
+    writeGlb(twoSpheres(), scene);
+    Rig rig;
+    rig.lights = {spotAt("key", 30), spotAt("rim", 150)};
+    saveRig(rig, rigFile);
+    GltfFile file = triangleFile();
+    file.json["materials"] =
+        nlohmann::json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
+    file.json["textures"] = nlohmann::json::parse(R"([{"source": 0}])");
+    file.json["images"] = nlohmann::json::parse(R"([{"uri": "skin.png"}])");
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    file.saveGlb(folder.path(), "bad.glb");
+    writeText(folder / "skin.png", lyingPng(16384, 8));
+
+    const ProcessResult run = runProcess(
+        {"/bin/bash", CUTIS_DRIVE_DECODER_SCRIPT, CUTIS_PROGRAM, scene, folder.path(), CUTIS_DROP_FILE, bad},
+        {{"CUTIS_CACHE_DIR", folder / "cache"},
+         {"CUTIS_DATA_DIR", folder / "data"},
+         {"LD_PRELOAD", CUTIS_BAD_DECODER_LIBRARY},
+         {"CUTIS_BAD_DECODER", kind}},
+        150);
+    ASSERT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << "nothing else is said: " << run.err;
+    const Rig saved = loadRig(rigFile);
+    ASSERT_EQ(saved.lights.size(), 2u);
+    EXPECT_NEAR(saved.lights[0].intensity, 8, 1e-9);
+    EXPECT_GT(contrast(readPicture(folder / "screen.png"), {330, 120, 630, 420}), 0.03)
+        << "the picture is there";
+}
+
+INSTANTIATE_TEST_SUITE_P(Decoder, ScreenAndBadDecoder,
+                         testing::Values(std::pair{"spin", "it takes its decoder too long"},
+                                         std::pair{"crash", "its decoder crashed (Segmentation fault)"}),
+                         [](const auto& test) { return test.param.first; });
 
 // The same with three people, from the data that set-up fetched.
 TEST(Screen, TheDefaultSceneIsLitSavedAndReproduced) {

@@ -29,16 +29,18 @@ namespace {
 constexpr int kThreads = 4, kArenas = 2;
 // A decoder may wait for a slow disk, not for ever: so many times the seconds of processor time that it has.
 constexpr unsigned kPatience = 20;
-// A small file may hold much: its decoder gets a second more for so much as there is to decode.
+// A small file may hold much: its decoder gets a second more for so much as it has decoded by then. What the
+// file claims to hold gives it none.
 constexpr std::uint64_t kDecodedBytesASecond = 150'000'000;
 
 void setText(std::array<char, 512>& field, const std::string& text) {
     std::snprintf(field.data(), field.size(), "%s", text.c_str());
 }
 
-// Of processor time, for an image of that many bytes decoded. At the most those that the request allows.
+// Of processor time, once so much of the image is decoded. At the most what the request's limit of bytes is
+// worth.
 void limitSeconds(const Request& request, std::uint64_t decoded) {
-    const rlim_t seconds = request.seconds + decoded / kDecodedBytesASecond;
+    const rlim_t seconds = request.seconds + std::min(decoded, request.limits.bytes) / kDecodedBytesASecond;
     const rlimit both{seconds, request.seconds + request.limits.bytes / kDecodedBytesASecond + 1};
     ::setrlimit(RLIMIT_CPU, &both);
     ::alarm(static_cast<unsigned>(seconds) * kPatience);
@@ -67,10 +69,10 @@ void answer(const Parcel<Request>& parcel) {
     Parcel<Reply> reply;
     SharedBytes made;
     const Allocate allocate = [&](std::uint64_t bytes) {
-        limitSeconds(request, std::min(bytes, request.limits.bytes));
         made = SharedBytes(bytes);
         return made.data();
     };
+    const Progress progress = [&](std::uint64_t decoded) { limitSeconds(request, decoded); };
     const SharedBytes given = SharedBytes::adopt(parcel.descriptors[1], request.dataBytes);
     ::mallopt(M_ARENA_MAX, kArenas);
     limitThreads(kThreads);
@@ -79,11 +81,11 @@ void answer(const Parcel<Request>& parcel) {
     std::string why;
     switch (request.operation) {
         case Operation::decodeMemory:
-            why =
-                decodeMemory(given.bytes(), request.format.data(), request.limits, message.layout, allocate);
+            why = decodeMemory(given.bytes(), request.format.data(), request.limits, message.layout, allocate,
+                               progress);
             break;
         case Operation::decodeFile:
-            why = decodeFile(request.path.data(), request.limits, message.layout, allocate);
+            why = decodeFile(request.path.data(), request.limits, message.layout, allocate, progress);
             break;
         case Operation::decodeDraco:
             why = codec::decodeDraco(given.bytes(), request.limits.bytes, allocate);
@@ -106,8 +108,7 @@ std::string causeOf(int status) {
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (signal == SIGXCPU || signal == SIGALRM) return "it takes its decoder too long";
     if (signal == SIGKILL) return "it took too much time or memory";
-    return std::string("its decoder crashed") +
-           (signal ? std::string(" (") + ::strsignal(signal) + ")" : "");
+    return std::string("its decoder crashed") + (signal ? std::string(" (") + ::strsignal(signal) + ")" : "");
 }
 
 class Server {

@@ -32,8 +32,19 @@ OIIO::ImageSpec straightAlpha() {
     return config;
 }
 
+// For OpenImageIO, which tells the portion that is done and goes on where this returns false.
+struct Progressing {
+    const Progress& progress;
+    double bytes;
+    static bool tell(void* self, float portion) {
+        const auto& all = *static_cast<const Progressing*>(self);
+        all.progress(static_cast<std::uint64_t>(all.bytes * portion));
+        return false;
+    }
+};
+
 std::string readPixels(OIIO::ImageInput& input, const PixelLimits& limits, PixelLayout& pixels,
-                       const Allocate& allocate) {
+                       const Allocate& allocate, const Progress& progress) {
     const OIIO::ImageSpec spec = input.spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
     pixels.width = spec.width;
@@ -48,7 +59,11 @@ std::string readPixels(OIIO::ImageInput& input, const PixelLimits& limits, Pixel
                std::to_string(limits.height) + " and " + std::to_string(limits.bytes >> 20) + " MiB decoded";
     }
     std::byte* samples = allocate(pixels.bytes());
-    if (input.read_image(0, 0, 0, pixels.channels, typeOf(pixels.type), samples)) return {};
+    Progressing progressing{progress, static_cast<double>(pixels.bytes())};
+    constexpr OIIO::stride_t close = OIIO::AutoStride;
+    const bool read = input.read_image(0, 0, 0, pixels.channels, typeOf(pixels.type), samples, close, close,
+                                       close, &Progressing::tell, &progressing);
+    if (read) return {};
     return orUnknown(input.geterror());
 }
 
@@ -83,7 +98,8 @@ void limitThreads(int threads) {
 }
 
 std::string decodeMemory(std::span<const std::byte> file, const std::string& format,
-                         const PixelLimits& limits, PixelLayout& pixels, const Allocate& allocate) {
+                         const PixelLimits& limits, PixelLayout& pixels, const Allocate& allocate,
+                         const Progress& progress) {
     return guarded([&]() -> std::string {
         OIIO::Filesystem::IOMemReader reader(const_cast<std::byte*>(file.data()), file.size());
         // ImageInput::open would look for a file of that name on disk.
@@ -93,16 +109,16 @@ std::string decodeMemory(std::span<const std::byte> file, const std::string& for
         input->set_ioproxy(&reader);
         OIIO::ImageSpec spec;
         if (!input->open("image." + format, spec, straightAlpha())) return orUnknown(input->geterror());
-        return readPixels(*input, limits, pixels, allocate);
+        return readPixels(*input, limits, pixels, allocate, progress);
     });
 }
 
 std::string decodeFile(const std::string& path, const PixelLimits& limits, PixelLayout& pixels,
-                       const Allocate& allocate) {
+                       const Allocate& allocate, const Progress& progress) {
     return guarded([&]() -> std::string {
         const OIIO::ImageSpec config = straightAlpha();
         const auto input = OIIO::ImageInput::open(path, &config);
-        return input ? readPixels(*input, limits, pixels, allocate) : orUnknown(OIIO::geterror());
+        return input ? readPixels(*input, limits, pixels, allocate, progress) : orUnknown(OIIO::geterror());
     });
 }
 

@@ -30,15 +30,18 @@ namespace codec {
 
 // Memory for so many bytes, where the samples shall lie.
 using Allocate = std::function<std::byte*(std::uint64_t bytes)>;
+// Told now and then, some 64 MB apart, how many bytes of samples are done.
+using Progress = std::function<void(std::uint64_t decoded)>;
 
-// So many threads for one image, whatever cores there are: each takes a stack and a heap of its own out of what the process may
-// have. Before anything else here.
+// So many threads for one image, whatever cores there are: each takes a stack and a heap of its own out of
+// what the process may have. Before anything else here.
 void limitThreads(int threads);
 
 // Each returns why it failed, or nothing; none throws. `format` is an OpenImageIO format name ("png").
 std::string decodeMemory(std::span<const std::byte> file, const std::string& format, const PixelLimits&,
-                         PixelLayout&, const Allocate&);
-std::string decodeFile(const std::string& path, const PixelLimits&, PixelLayout&, const Allocate&);
+                         PixelLayout&, const Allocate&, const Progress&);
+std::string decodeFile(const std::string& path, const PixelLimits&, PixelLayout&, const Allocate&,
+                       const Progress&);
 // Writes to `path`, whatever its name.
 std::string encode(const std::string& format, const PixelLayout&, std::span<const std::byte> samples,
                    const std::string& path);
