@@ -1,6 +1,7 @@
 // seam_histogram SCENE RENDER.exr REFERENCE.exr [NEAR_MM]: errors of skin's diffuse light near seams of the
 // layout and elsewhere, from what `cutis render --aov diffuse,position` and `cutis reference --halves` wrote
 // of one view. The command is in docs/model.md.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -67,6 +68,7 @@ struct Histogram {
     static constexpr double kEdges[] = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
     int counts[std::size(kEdges) + 1] = {};
     int total = 0;
+    std::vector<double> errors, noise;  // noise: what the reference itself may be off by
     double squares = 0,
            reference = 0;  // free of the reference's noise: products with two independent halves of it
 
@@ -75,10 +77,18 @@ struct Histogram {
         std::size_t bin = 0;
         while (bin < std::size(kEdges) && error >= kEdges[bin]) ++bin;
         ++counts[bin], ++total;
+        errors.push_back(error), noise.push_back(0.5 * std::abs(a - b) / mean);
         squares += (value - a) * (value - b);
         reference += a * b;
     }
 };
+
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * double(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
 
 Picture sibling(const std::string& path, const char* name) {
     return readPicture(std::filesystem::path(path).replace_extension(name));
@@ -128,6 +138,13 @@ int run(int argc, char** argv) {
                     Histogram::kEdges[last ? bin - 1 : bin]);
         for (const Histogram& h : histograms)
             std::printf(" %8.2f %%", 100.0 * h.counts[bin] / std::max(h.total, 1));
+        std::printf("\n");
+    }
+    for (const double share : {0.5, 0.9, 0.99}) {
+        std::printf("quantile %4.2f           ", share);
+        for (const Histogram& h : histograms) std::printf(" %8.2f %%", 100 * quantile(h.errors, share));
+        std::printf("   of it the reference's noise");
+        for (const Histogram& h : histograms) std::printf(" %6.2f %%", 100 * quantile(h.noise, share));
         std::printf("\n");
     }
     std::printf("%-24s", "relative L2");

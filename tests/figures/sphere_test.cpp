@@ -22,7 +22,7 @@ namespace {
 constexpr double kLux = 2;
 constexpr int kSize = 200;
 
-enum class Layout { plain, mirrored, bare, uneven };  // see tests/support/awkward_layouts.h
+enum class Layout { plain, mirrored, bare, uneven, stacked, shattered };  // see tests/support/awkward_layouts.h
 
 struct Case {
     double radiusMm;
@@ -37,6 +37,8 @@ Primitive ballOf(const Case& c) {
         case Layout::mirrored: return mirrored(std::move(ball));
         case Layout::bare: return bare(std::move(ball));
         case Layout::uneven: return uneven(std::move(ball));
+        case Layout::stacked: return stacked(std::move(ball));
+        case Layout::shattered: return shattered(ball);
         case Layout::plain: break;
     }
     return ball;
@@ -45,7 +47,7 @@ Primitive ballOf(const Case& c) {
 std::string nameOf(const Case& c) {
     return std::to_string(c.radiusMm).substr(0, 1) + "_mm_seen_at_" + std::to_string(int(c.viewDegrees)) +
            "_degrees_" + (c.mapping == SphereMapping::latLong ? "lat_long" : "cube") +
-           std::array{"", "_mirrored", "_bare", "_uneven"}[static_cast<std::size_t>(c.layout)];
+           std::array{"", "_mirrored", "_bare", "_uneven", "_stacked", "_shattered"}[static_cast<std::size_t>(c.layout)];
 }
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -100,7 +102,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{3, 90, SphereMapping::cube}, Case{8, 90, SphereMapping::cube},
                       Case{8, 90, SphereMapping::latLong, Layout::mirrored},
                       Case{8, 90, SphereMapping::latLong, Layout::bare},
-                      Case{8, 90, SphereMapping::cube, Layout::uneven}),
+                      Case{8, 90, SphereMapping::cube, Layout::uneven},
+                      Case{8, 90, SphereMapping::cube, Layout::stacked},
+                      Case{8, 90, SphereMapping::cube, Layout::shattered}),
     [](const auto& instance) { return nameOf(instance.param); });
 
 }  // namespace

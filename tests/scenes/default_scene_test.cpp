@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "renderer/scene/gltf.h"
 #include "tests/support/figure.h"
 #include "tests/support/pictures.h"
 #include "tests/support/render.h"
@@ -64,6 +65,21 @@ TEST(DefaultScene, RendersThreePeople) {
     }
     const auto [least, most] = std::minmax_element(means.begin(), means.end());
     EXPECT_GT(*most / *least, 1.1);
+}
+
+// What is not skin: each pair of eyes lies behind clear corneas, and shirts have a sheen.
+TEST(DefaultScene, EyesHaveCorneasAndShirtsASheen) {
+    const std::filesystem::path file = std::filesystem::path(CUTIS_DATA_DIR) / "default" / "default.gltf";
+    const Scene scene = loadGltf(file, {.skin = {}, .images = false});
+    int corneas = 0, shirts = 0;
+    for (const Node& node : scene.nodes) {
+        if (node.mesh < 0) continue;
+        const Material& material = scene.materials[scene.meshes[node.mesh].primitives.at(0).material];
+        corneas += node.name.ends_with("cornea") && material.transmission == 1 && !material.skin;
+        shirts += node.name.ends_with("shirt") && material.sheen.color.r > 0;
+    }
+    EXPECT_EQ(corneas, 6);
+    EXPECT_EQ(shirts, 3);
 }
 
 }  // namespace

@@ -19,6 +19,18 @@ Primitive squeezed(Primitive body) {
     return body;
 }
 
+Primitive stacked(Primitive body) {
+    const std::size_t face = body.uv0.size() / 6;
+    for (std::size_t v = 0; v < body.uv0.size(); ++v) body.uv0[v] = body.uv0[v % face];
+    return body;
+}
+
+Primitive tiled(Primitive body) {
+    const std::size_t face = body.uv0.size() / 6;
+    for (std::size_t v = 0; v < body.uv0.size(); ++v) body.uv0[v] += glm::vec2(float(v / face) * 100, -7);
+    return body;
+}
+
 Primitive uneven(Primitive body) {
     for (std::size_t v = 0; v < body.uv0.size() / 6; ++v) body.uv0[v] *= 0.1f;
     return body;

@@ -17,8 +17,59 @@ constexpr glm::dvec2 kPictureCentre{0.7045, 0.295};
 constexpr double kPictureIris = 0.1165, kPictureBall = 0.285;
 
 // Anatomy (Atchison & Smith 2000): in an eye of radius 12 mm the cornea is a cap of radius 7.8 mm that meets
-// the sclera at the limbus, 5.9 mm from the axis, and stands 1.3 mm proud of the sclera's sphere at its top.
-constexpr double kLimbusRadius = 5.9 / 12, kCornealBulge = 1.0 / 12;
+// the sclera at the limbus, 5.9 mm from the axis.
+constexpr double kLimbusRadius = 5.9 / 12, kCornealRadius = 7.8 / 12;
+constexpr int kSegments = 48;
+
+// Axes of an eye, z along its gaze.
+glm::dmat3 axesOf(const Eye& eye) {
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), eye.gaze));
+    return {right, glm::cross(eye.gaze, right), eye.gaze};
+}
+
+// The angle from the gaze, seen from the middle of the eye, at which iris and sclera meet.
+double limbusOf(double irisScale) {
+    return std::asin(kLimbusRadius) * irisScale;
+}
+
+// A surface of revolution: rings[i] is a place (distance from the axis, height) in the half plane of the
+// axis. Normals follow from neighbouring rings, one-sided at both ends.
+TriangleMesh revolve(const Eye& eye, const std::vector<glm::dvec2>& rings) {
+    const glm::dmat3 axes = axesOf(eye);
+    const int last = static_cast<int>(rings.size()) - 1;
+    TriangleMesh mesh;
+    for (int i = 0; i <= last; ++i) {
+        const glm::dvec2 along = rings[std::min(last, i + 1)] - rings[std::max(0, i - 1)];
+        const glm::dvec2 normal =
+            rings[i].x == 0 ? glm::dvec2(0, 1) : glm::normalize(glm::dvec2(-along.y, along.x));
+        for (int j = 0; j <= kSegments; ++j) {
+            const double phi = 2 * kPi * j / kSegments;
+            const glm::dvec2 around(std::cos(phi), std::sin(phi));
+            mesh.positions.push_back(eye.centre + axes * glm::dvec3(rings[i].x * around, rings[i].y));
+            mesh.normals.push_back(axes * glm::dvec3(normal.x * around, normal.y));
+        }
+    }
+    const auto at = [](int i, int j) { return std::uint32_t(i * (kSegments + 1) + j); };
+    for (int i = 0; i < last; ++i)
+        for (int j = 0; j < kSegments; ++j) {
+            if (rings[i].x > 0)
+                mesh.indices.insert(mesh.indices.end(), {at(i, j), at(i + 1, j), at(i, j + 1)});
+            mesh.indices.insert(mesh.indices.end(), {at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)});
+        }
+    return mesh;
+}
+
+// Texture coordinates of a surface of revolution whose rings lie at these distances from the iris's centre in
+// the picture.
+std::vector<glm::dvec2> pictureUvs(const std::vector<double>& radii) {
+    std::vector<glm::dvec2> uvs;
+    for (const double r : radii)
+        for (int j = 0; j <= kSegments; ++j) {
+            const double phi = 2 * kPi * j / kSegments;
+            uvs.push_back(kPictureCentre + r * glm::dvec2(std::cos(phi), -std::sin(phi)));
+        }
+    return uvs;
+}
 
 }  // namespace
 
@@ -39,52 +90,55 @@ Eye fitEye(const std::vector<glm::dvec3>& points) {
     return {mean + offset, std::sqrt(meanSquare + glm::dot(offset, offset)), {0, 0, 1}};
 }
 
-TriangleMesh makeEyeball(const Eye& eye, double irisScale) {
-    constexpr int kRings = 40, kSegments = 48;
-    const glm::dvec3 axis = eye.gaze, right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), axis)),
-                     up = glm::cross(axis, right);
-    const double limbus = std::asin(kLimbusRadius);
-    TriangleMesh mesh;
+TriangleMesh makeSclera(const Eye& eye, double irisScale) {
+    constexpr int kRings = 26;
+    const double limbus = limbusOf(irisScale), end = 0.75 * kPi;
+    std::vector<glm::dvec2> rings;
+    std::vector<double> pictureRadii;
     for (int i = 0; i <= kRings; ++i) {
-        // Half of the rings over the cornea and the limbus, which is what one sees.
-        const double t = double(i) / kRings;
-        const double theta =
-            t < 0.5 ? 2 * t * 1.3 * limbus : 1.3 * limbus + (2 * t - 1) * (kPi * 0.75 - 1.3 * limbus);
-        const double s = std::clamp(1 - theta / (1.12 * limbus), 0.0, 1.0);
-        const double radius = eye.radius * (1 + kCornealBulge * s * s * (3 - 2 * s) * 1.15);
-        const double irisAngle = limbus * irisScale;
-        const double r = theta < irisAngle
-                             ? kPictureIris * std::sin(theta) / std::sin(irisAngle)
-                             : kPictureIris + (kPictureBall - kPictureIris) *
-                                                  std::min(1.0, (theta - irisAngle) / (kPi / 2 - irisAngle));
-        for (int j = 0; j <= kSegments; ++j) {
-            const double phi = 2 * kPi * j / kSegments;
-            const glm::dvec3 around = std::cos(phi) * right + std::sin(phi) * up;
-            mesh.positions.push_back(eye.centre +
-                                     radius * (std::cos(theta) * axis + std::sin(theta) * around));
-            mesh.uvs.push_back(kPictureCentre + r * glm::dvec2(std::cos(phi), -std::sin(phi)));
-        }
+        // Denser towards the limbus, of which one sees most.
+        const double t = double(i) / kRings, angle = glm::mix(limbus, end, t * (0.4 + 0.6 * t));
+        rings.push_back(eye.radius * glm::dvec2(std::sin(angle), std::cos(angle)));
+        const double share = std::min(1.0, (angle - limbus) / (kPi / 2 - limbus));
+        pictureRadii.push_back(glm::mix(kPictureIris, kPictureBall, share));
     }
-    const auto at = [](int i, int j) { return std::uint32_t(i * (kSegments + 1) + j); };
-    for (int i = 0; i < kRings; ++i)
-        for (int j = 0; j < kSegments; ++j) {
-            if (i > 0) mesh.indices.insert(mesh.indices.end(), {at(i, j), at(i + 1, j), at(i, j + 1)});
-            mesh.indices.insert(mesh.indices.end(), {at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)});
-        }
-    // Normals from the profile: neighbours along both directions, one-sided at the two ends.
-    mesh.normals.resize(mesh.positions.size());
-    for (int i = 0; i <= kRings; ++i)
-        for (int j = 0; j <= kSegments; ++j) {
-            const glm::dvec3 along =
-                mesh.positions[at(std::min(kRings, i + 1), j)] - mesh.positions[at(std::max(0, i - 1), j)];
-            const double phi = 2 * kPi * j / kSegments;
-            const glm::dvec3 tangent = -std::sin(phi) * right + std::cos(phi) * up;
-            mesh.normals[at(i, j)] = i == 0 ? axis : glm::normalize(glm::cross(along, tangent));
-        }
+    TriangleMesh mesh = revolve(eye, rings);
+    mesh.uvs = pictureUvs(pictureRadii);
     return mesh;
 }
 
-void shadeByOpenness(TriangleMesh& ball, const Eye& eye, const TriangleMesh& walls) {
+TriangleMesh makeIris(const Eye& eye, double irisScale) {
+    constexpr int kRings = 10;
+    const double limbus = limbusOf(irisScale);
+    std::vector<glm::dvec2> rings;
+    std::vector<double> pictureRadii;
+    for (int i = 0; i <= kRings; ++i) {
+        const double t = double(i) / kRings;
+        rings.push_back(eye.radius * glm::dvec2(t * std::sin(limbus), std::cos(limbus)));
+        pictureRadii.push_back(t * kPictureIris);
+    }
+    TriangleMesh mesh = revolve(eye, rings);
+    mesh.uvs = pictureUvs(pictureRadii);
+    return mesh;
+}
+
+TriangleMesh makeCornea(const Eye& eye, double irisScale) {
+    constexpr int kRings = 20;
+    constexpr double kWithin = 1.06;  // of the cap's half angle: to below the sclera
+    const double radius = kCornealRadius * irisScale * eye.radius, limbus = limbusOf(irisScale);
+    const double half = std::asin(eye.radius * std::sin(limbus) / radius);
+    const double centre = eye.radius * std::cos(limbus) - radius * std::cos(half);
+    std::vector<glm::dvec2> rings;
+    for (int i = 0; i <= kRings; ++i) {
+        const double angle = kWithin * half * i / kRings;
+        rings.push_back({radius * std::sin(angle), centre + radius * std::cos(angle)});
+    }
+    TriangleMesh mesh = revolve(eye, rings);
+    mesh.uvs.assign(mesh.positions.size(), glm::dvec2(0));
+    return mesh;
+}
+
+void shadeByOpenness(TriangleMesh& part, const Eye& eye, const TriangleMesh& walls) {
     struct Wall {
         std::array<glm::dvec3, 3> corner;
         glm::dvec3 centre;
@@ -110,9 +164,9 @@ void shadeByOpenness(TriangleMesh& ball, const Eye& eye, const TriangleMesh& wal
         return u >= 0 && v >= 0 && u + v <= 1 && glm::dot(e2, q) / det > 1e-6;
     };
     constexpr int kDirections = 64;
-    ball.colors.assign(ball.positions.size(), glm::dvec3(0));
-    parallelFor(ball.positions.size(), [&](std::size_t i) {
-        const glm::dvec3 n = ball.normals[i], origin = ball.positions[i] + 1e-4 * n;
+    part.colors.assign(part.positions.size(), glm::dvec3(0));
+    parallelFor(part.positions.size(), [&](std::size_t i) {
+        const glm::dvec3 n = part.normals[i], origin = part.positions[i] + 1e-4 * n;
         if (glm::dot(n, eye.gaze) < -0.2) return;  // the back of the ball is never seen
         const glm::dvec3 t =
             glm::normalize(glm::cross(n, std::abs(n.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
@@ -135,7 +189,7 @@ void shadeByOpenness(TriangleMesh& ball, const Eye& eye, const TriangleMesh& wal
                     open[k] = false;
         }
         // A renderer shadows the ball as well, though not by all of this: meet it half way.
-        ball.colors[i] =
+        part.colors[i] =
             glm::dvec3(std::sqrt(double(std::count(open.begin(), open.end(), true)) / kDirections));
     });
 }
@@ -152,10 +206,13 @@ Raster makeEyeColors(const Raster& picture, const glm::dvec3& irisGain) {
             // Sclera reflects about 60 % and is warmer towards the corners, where the conjunctiva is thicker.
             const glm::dvec3 white =
                 glm::mix(glm::dvec3(0.78, 0.80, 0.82), glm::dvec3(0.74, 0.66, 0.63), corner);
+            // The limbus is a dark ring, where the sclera grows thin over the iris.
+            const double ring =
+                1 - 0.5 * std::clamp((r - kPictureIris * 0.82) / (kPictureIris * 0.15), 0.0, 1.0);
             // The painted irises are more colourful than real ones: pull them towards their own grey.
             const double grey = 0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2];
             for (int c = 0; c < 3; ++c) {
-                const double iris = 0.9 * irisGain[c] * glm::mix(grey, double(texel[c]), 0.55);
+                const double iris = 0.75 * ring * irisGain[c] * glm::mix(grey, double(texel[c]), 0.55);
                 out.at(x, y)[c] = float(glm::mix(iris, texel[c] * white[c], sclera));
             }
         }

@@ -1,4 +1,4 @@
-// Eyeballs: one closed surface of sclera and cornea whose iris is painted under the cornea's bulge.
+// Eyes: a ball of sclera that a disc of iris closes, and before the disc the cap of a clear cornea.
 #pragma once
 
 #include <vector>
@@ -18,12 +18,19 @@ struct Eye {
 // The best sphere (least squares) through points.
 Eye fitEye(const std::vector<glm::dvec3>& points);
 
-// `irisScale` widens the painted iris; u, v run over MakeHuman's eye picture.
-TriangleMesh makeEyeball(const Eye& eye, double irisScale);
+// The white, from the limbus back. u, v of it and of the iris run over MakeHuman's eye picture.
+TriangleMesh makeSclera(const Eye& eye, double irisScale);
 
-// Multiplies the ball's colours by how open each point is to the outside, so that lids and sockets shade it.
-// `walls` are the surfaces around it.
-void shadeByOpenness(TriangleMesh& ball, const Eye& eye, const TriangleMesh& walls);
+// A disc in the plane of the limbus, where the iris appears to be behind a cornea that refracts (3 mm behind
+// its top). `irisScale` widens it.
+TriangleMesh makeIris(const Eye& eye, double irisScale);
+
+// The clear cap over the iris; its edge lies within the sclera.
+TriangleMesh makeCornea(const Eye& eye, double irisScale);
+
+// Multiplies the colours of a part of the ball by how open each point is to the outside, so that lids and
+// sockets shade it. `walls` are the surfaces around it.
+void shadeByOpenness(TriangleMesh& part, const Eye& eye, const TriangleMesh& walls);
 
 // MakeHuman's eye picture made plausible as albedo: its sclera darkened and reddened towards the corners.
 Raster makeEyeColors(const Raster& picture, const glm::dvec3& irisGain);

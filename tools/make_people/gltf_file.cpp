@@ -70,6 +70,15 @@ int GltfFile::addTexture(const std::string& imageUri, bool repeat) {
     return add("textures", {{"sampler", repeat ? 1 : 0}, {"source", add("images", {{"uri", imageUri}})}});
 }
 
+int GltfFile::addMaterial(const ordered_json& material) {
+    const ordered_json extensions = material.value("extensions", ordered_json::object());
+    for (const auto& [name, value] : extensions.items()) {
+        ordered_json& used = root_["extensionsUsed"];
+        if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+    }
+    return add("materials", material);
+}
+
 int GltfFile::addMesh(const std::string& name, const TriangleMesh& mesh, int material) {
     ordered_json attributes;
     attributes["POSITION"] = addAccessor(flatten(mesh.positions), 3, true);

@@ -17,7 +17,7 @@ class GltfFile {
 
     // Each returns the new element's index.
     int addTexture(const std::string& imageUri, bool repeat = false);
-    int addMaterial(const nlohmann::ordered_json& material) { return add("materials", material); }
+    int addMaterial(const nlohmann::ordered_json& material);
     int addMesh(const std::string& name, const TriangleMesh& mesh, int material);
     int addCamera(const std::string& name, double yfov);
     int addNode(const nlohmann::ordered_json& node) { return add("nodes", node); }

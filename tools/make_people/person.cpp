@@ -163,6 +163,18 @@ int addSkin(GltfFile& file, const fs::path& folder, const Sources& sources, cons
     return addMeshNode(file, person.name + " skin", mesh, file.addMaterial(material));
 }
 
+// The clear shell before an iris.
+ordered_json makeCorneaMaterial(const std::string& name) {
+    constexpr double kIor = 1.376;      // Atchison & Smith 2000
+    constexpr double kRoughness = 0.1;  // of the tear film as one sees it; sharper shows lamps as points
+    ordered_json material;
+    material["name"] = name;
+    material["pbrMetallicRoughness"] = {{"metallicFactor", 0}, {"roughnessFactor", kRoughness}};
+    material["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
+    material["extensions"]["KHR_materials_ior"] = {{"ior", kIor}};
+    return material;
+}
+
 int addEyes(GltfFile& file, const fs::path& folder, const Sources& sources, const PersonRecipe& person,
             const std::vector<Eye>& eyes, const TriangleMesh& skin) {
     const std::string colors = person.name + "-eye.png";
@@ -171,17 +183,31 @@ int addEyes(GltfFile& file, const fs::path& folder, const Sources& sources, cons
                                        (person.iris + "_eye.png")),
                             person.irisGain),
               true);
-    ordered_json material;
-    material["name"] = person.name + " eyes";
-    material["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", file.addTexture(colors)}}},
-                                        {"metallicFactor", 0},
-                                        {"roughnessFactor", 0.12}};
-    const int index = file.addMaterial(material);
+    const int texture = file.addTexture(colors);
+    const auto painted = [&](const char* part, double roughness) {
+        ordered_json material;
+        material["name"] = person.name + " " + part;
+        material["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", texture}}},
+                                            {"metallicFactor", 0},
+                                            {"roughnessFactor", roughness}};
+        return material;
+    };
+    ordered_json iris = painted("irises", 1);
+    // What lies before it has its own refractive index: it reflects nothing at its surface.
+    iris["extensions"]["KHR_materials_specular"] = {{"specularFactor", 0}};
+    const int scleraMaterial = file.addMaterial(painted("eyes", 0.12)), irisMaterial = file.addMaterial(iris),
+              corneaMaterial = file.addMaterial(makeCorneaMaterial(person.name + " corneas"));
     std::vector<int> nodes;
     for (std::size_t i = 0; i < eyes.size(); ++i) {
-        TriangleMesh ball = makeEyeball(eyes[i], person.irisScale);
-        shadeByOpenness(ball, eyes[i], skin);
-        nodes.push_back(addMeshNode(file, person.name + (i == 0 ? " left eye" : " right eye"), ball, index));
+        const std::string side = person.name + (i == 0 ? " left " : " right ");
+        TriangleMesh sclera = makeSclera(eyes[i], person.irisScale),
+                     disc = makeIris(eyes[i], person.irisScale);
+        shadeByOpenness(sclera, eyes[i], skin);
+        shadeByOpenness(disc, eyes[i], skin);
+        nodes.push_back(addMeshNode(file, side + "eye", sclera, scleraMaterial));
+        nodes.push_back(addMeshNode(file, side + "iris", disc, irisMaterial));
+        nodes.push_back(
+            addMeshNode(file, side + "cornea", makeCornea(eyes[i], person.irisScale), corneaMaterial));
     }
     return file.addNode({{"name", person.name + " eyes"}, {"children", nodes}});
 }
@@ -249,6 +275,10 @@ int addShirt(GltfFile& file, const fs::path& folder, const PersonRecipe& person,
     material["pbrMetallicRoughness"] = {
         {"baseColorFactor", {c.x, c.y, c.z, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.85}};
     material["normalTexture"] = {{"index", file.addTexture(image, true)}, {"scale", 0.4}};
+    // Fibres that stand off the cloth: a pale rim where one looks along it.
+    const glm::dvec3 fuzz = 0.08 + 0.25 * c;
+    material["extensions"]["KHR_materials_sheen"] = {{"sheenColorFactor", {fuzz.x, fuzz.y, fuzz.z}},
+                                                     {"sheenRoughnessFactor", 0.5}};
     material["doubleSided"] = true;
     return addMeshNode(file, person.name + " shirt", mesh, file.addMaterial(material));
 }
