@@ -276,7 +276,7 @@ int addShirt(GltfFile& file, const fs::path& folder, const PersonRecipe& person,
         {"baseColorFactor", {c.x, c.y, c.z, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.85}};
     material["normalTexture"] = {{"index", file.addTexture(image, true)}, {"scale", 0.4}};
     // Fibres that stand off the cloth: a pale rim where one looks along it.
-    const glm::dvec3 fuzz = 0.08 + 0.25 * c;
+    const glm::dvec3 fuzz = 0.02 + 0.2 * c;
     material["extensions"]["KHR_materials_sheen"] = {{"sheenColorFactor", {fuzz.x, fuzz.y, fuzz.z}},
                                                      {"sheenRoughnessFactor", 0.5}};
     material["doubleSided"] = true;
