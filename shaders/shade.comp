@@ -7,6 +7,9 @@
 // features: SKIN SHADOWS ENVIRONMENT TEXTURED AOVS DETAIL(SKIN)
 #include "shared/environment.h"
 #include "shared/scene.h"
+#ifdef DETAIL
+#include "shared/detail.h"
+#endif
 #include "lib/geometry.glsl"
 #include "lib/octahedral.glsl"
 
@@ -32,6 +35,7 @@ layout(binding = 27) uniform texture2D surfaceNormal;  // see surface.comp
 #ifdef DETAIL
 layout(binding = 28, scalar) readonly buffer RestPositionBuffer { vec3 restPositions[]; };
 layout(binding = 29) uniform sampler2D detailSlopes;
+layout(binding = 30, scalar) readonly buffer PoreBuffer { Pores poresOf[]; };  // a material
 #endif
 #ifdef SHADOWS
 layout(binding = 15) uniform texture2DArray lightVisibility;  // a layer a light (shared/light_share.h)
@@ -208,8 +212,10 @@ Shade shadeAt(uint triangleIndex, vec2 pixel) {
     vec3 detailed = n;
     float removed = 0.0;
 #ifdef DETAIL
-    detailed = facingNormal(detailedNormal(material, triangle, restPositions[v.x], restPositions[v.y], restPositions[v.z], w, wx, wy,
-                                           va, vb, vc, smoothNormal, n, removed), view, smoothNormal);
+    Triangle rest = Triangle(v, restPositions[v.x], restPositions[v.y], restPositions[v.z]);
+    detailed = detailedNormal(poresOf[draw.material], material.normalTexture, triangle, rest, w, wx, wy, va, vb, vc,
+                              smoothNormal, n, removed);
+    detailed = facingNormal(detailed, view, smoothNormal);
 #endif
     shadeSkin(shade, material, texel, atlasVertices[v.x].island, p, smoothNormal, n, detailed, removed, view);
 #else

@@ -7,6 +7,7 @@
 #include "renderer/frame/camera.h"
 #include "renderer/frame/frame.h"
 #include "renderer/passes/light_views.h"
+#include "renderer/skin/detail.h"
 
 namespace cutis {
 namespace {
@@ -86,6 +87,23 @@ void chooseDetail(FrameContext& frame) {
     if (!layoutStands) kept.mmPerTexel = wanted.mmPerTexel;
     if (!frame.anyView || !near(kept.pixelsAcross, wanted.pixelsAcross))
         kept.pixelsAcross = wanted.pixelsAcross;
+}
+
+bool resolvesPores(const FrameContext& frame) {
+    const glm::ivec2 pixels(frame.settings->width, frame.settings->height);
+    const ViewCameraMetrics metrics(frame.input->camera, pixels);
+    for (const GeometryDraw& draw : frame.geometry.draws) {
+        if (!draw.skin) continue;
+        const SkinMaterial& skin = *frame.input->scene->materials[draw.material].skin;
+        const glm::vec3 low(draw.bounds.min - frame.geometry.origin), high(draw.bounds.max - frame.geometry.origin);
+        if (!(skin.specular > 0 && skin.detail > 0) || !reaches(frame.camera.worldToClip, low, high)) continue;
+        const double widest = skin::kDetailWidest * skin.detailScale / skin.mmPerUnit;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::bvec3 upper(corner & 1, corner & 2, corner & 4);
+            if (metrics.metresPerPixel(glm::mix(draw.bounds.min, draw.bounds.max, upper)) < widest) return true;
+        }
+    }
+    return false;
 }
 
 void chooseLightMapSize(FrameContext& frame, std::size_t maps) {

@@ -26,4 +26,7 @@ void anticipateDetail(FrameContext& frame);
 // Fills frame.detail.lightMapSize, for that many maps.
 void chooseLightMapSize(FrameContext& frame, std::size_t maps);
 
+// Whether some pixel of the picture is narrow enough for pores of the skin that it may show.
+bool resolvesPores(const FrameContext& frame);
+
 }  // namespace cutis

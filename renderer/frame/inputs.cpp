@@ -105,10 +105,11 @@ InputHashes hashInputs(const FrameContext& frame) {
     for (const int material : skinMaterials(scene, frame.geometry)) {
         const SkinMaterial& skin = *scene.materials[material].skin;
         layer.add(material, skin.roughness, skin.specular, skin.lobeWeight, skin.lobeRatio);
-        pores.add(skin.detail, skin.detailScale);
+        pores.add(material, skin.detail, skin.detailScale, skin.roughness, skin.lobeWeight, skin.lobeRatio);
         mix.add(material, skin.mix);
     }
-    set(Input::materials, pores.add(hashMaterials(scene)).value());
+    set(Input::materials, hashMaterials(scene));
+    set(Input::pores, pores.value());
     set(Input::skinLayer, layer.value());
     set(Input::skinMix, mix.value());
     set(Input::profiles, hashProfiles(frame));

@@ -267,7 +267,7 @@ std::vector<PassRow> rowsBeforeTheFrame() {
          .inputs = {I::environmentRotation, I::environmentPower}, .reads = {R::environmentMaps},
          .writes = {R::environmentSettings}, .record = uploadEnvironmentSettings, .forget = forgetEnvironmentSettings},
         {.name = "meshes", .phase = Phase::upload, .need = Need::always, .inputs = {I::geometry, I::pose},
-         .reads = {}, .variants = {Need::detail}, .writes = {R::meshes}, .record = uploadMeshes, .forget = forgetMeshes},
+         .reads = {}, .writes = {R::meshes}, .record = uploadMeshes, .forget = forgetMeshes},
         {.name = "sky_occluders", .phase = Phase::upload, .need = Need::environment, .inputs = {I::geometry}, .reads = {},
          .writes = {R::occluders}, .record = uploadOccluders, .ahead = makeOccluders, .forget = forgetOccluders},
         {.name = "textures", .phase = Phase::alone, .need = Need::always, .inputs = {I::textures}, .reads = {},
@@ -275,8 +275,10 @@ std::vector<PassRow> rowsBeforeTheFrame() {
         {.name = "materials", .phase = Phase::upload, .need = Need::always,
          .inputs = {I::geometry, I::materials, I::skinLayer, I::skinMix, I::profiles}, .reads = {R::textures},
          .variants = {Need::transparency, Need::skinSpecular, Need::clearcoat, Need::sheen, Need::transmission,
-                      Need::secondLobe, Need::detail},
+                      Need::secondLobe},
          .writes = {R::materials}, .record = uploadMaterials},
+        {.name = "pores", .phase = Phase::upload, .need = Need::detail, .inputs = {I::geometry, I::textures, I::pores},
+         .reads = {}, .writes = {R::pores}, .record = uploadPores, .forget = forgetPores},
         {.name = "atlas_layout", .phase = Phase::upload, .need = Need::skin, .inputs = {I::geometry, I::atlasDetail},
          .reads = {}, .writes = {R::layout}, .record = uploadLayout, .ahead = makeLayout, .forget = forgetLayout},
         {.name = "stretch", .phase = Phase::upload, .need = Need::motion, .inputs = {},
@@ -345,8 +347,8 @@ std::vector<PassRow> rowsOfTheFrame() {
          .byGroup = true},
         {.name = "composite", .phase = Phase::frame, .need = Need::always, .inputs = {I::camera},
          .reads = {R::meshes, R::textures, R::materials, R::draws, R::ranges, R::lights, R::viewBuffers, R::target},
-         .readsIf = {R::exitance, R::lightMaps, R::visibility, R::environmentMaps, R::environmentSettings},
-         .writes = {R::picture}, .record = compositeRow},
+         .readsIf = {R::exitance, R::lightMaps, R::visibility, R::environmentMaps, R::environmentSettings, R::pores},
+         .variants = {Need::detail}, .writes = {R::picture}, .record = compositeRow},
     };
 }
 

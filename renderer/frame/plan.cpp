@@ -86,21 +86,28 @@ Needs computeNeeds(const NeedsInput& input) {
     };
     setLayer(Need::clearcoat, input.coatedMaterials, " with a clear coat", "no material has a clear coat");
     setLayer(Need::sheen, input.sheenMaterials, " with a sheen", "no material has a sheen");
-    setLayer(Need::secondLobe, input.twoLobedMaterials, " of skin with two specular lobes", "no skin has a second specular lobe");
-    setLayer(Need::detail, input.poredMaterials, " of skin with pores", "no skin has pores");
+    setLayer(Need::secondLobe, input.twoLobedMaterials, " of skin with two specular lobes",
+             "no skin has a second specular lobe");
+    const bool pores = input.poredMaterials > 0;
+    set(Need::detail, (pores && input.poresResolved) || !input.prune,
+        !pores                 ? "no skin has pores"
+        : !input.poresResolved ? "pores are below a pixel: roughness stands for them"
+                               : count(input.poredMaterials, "material") + " of skin with pores");
     setLayer(Need::transmission, input.glassMaterials, " that light goes straight through",
              "nothing is of glass");
     return needs;
 }
 
 std::vector<LeftOut> leftOutWithinRows(const Needs& needs) {
-    constexpr std::pair<Need, const char*> kParts[] = {
-        {Need::translucency, "translucency"},  {Need::areaLights, "area_lights"},
-        {Need::skinSpecular, "skin_specular"}, {Need::transparency, "transparency"},
-        {Need::clearcoat, "clearcoat"},        {Need::sheen, "sheen"},
-        {Need::transmission, "transmission"},
-        {Need::secondLobe, "second_lobe"},
-        {Need::detail, "detail"}};
+    constexpr std::pair<Need, const char*> kParts[] = {{Need::translucency, "translucency"},
+                                                       {Need::areaLights, "area_lights"},
+                                                       {Need::skinSpecular, "skin_specular"},
+                                                       {Need::transparency, "transparency"},
+                                                       {Need::clearcoat, "clearcoat"},
+                                                       {Need::sheen, "sheen"},
+                                                       {Need::transmission, "transmission"},
+                                                       {Need::secondLobe, "second_lobe"},
+                                                       {Need::detail, "pores"}};
     std::vector<LeftOut> parts;
     for (const auto& [need, name] : kParts) {
         if (!needs[need]) parts.push_back({name, needs.why(need)});

@@ -31,6 +31,7 @@ struct NeedsInput {
     int lightSamples = 0, shadowedSamples = 0, areaSamples = 0;
     int shinySkinMaterials = 0, blendedDraws = 0;
     int twoLobedMaterials = 0, poredMaterials = 0;  // of skin that shines
+    bool poresResolved = false;                     // some pixel is narrow enough for them
     int coatedMaterials = 0, sheenMaterials = 0, glassMaterials = 0;  // of what is not skin
     std::size_t seams = 0;  // edges of UV islands beyond which the skin goes on
     bool environment = false;
@@ -52,6 +53,7 @@ enum class Input {
     textures,             // images, and which of them are sampled
     materials,            // all that a material has but what follows
     skinLayer,            // roughness and specular scale of skin
+    pores,                // of skin: all that materials say of them
     skinMix,              // how much of its albedo light meets before it scatters
     profiles,             // diffusion profiles as they are used, and which skin is translucent
     levels,               // of diffusion: how many there are, which charts share them, and their resolutions
@@ -69,12 +71,12 @@ enum class Input {
     pictureSize,
     aovs
 };
-inline constexpr int kInputCount = 21;
+inline constexpr int kInputCount = 22;
 
 // What rows hand to one another.
 enum class Resource {
     // Made before the frame
-    environmentMaps, environmentSettings, skyDirections, meshes, occluders, textures, materials, layout, draws, ranges, profiles,
+    environmentMaps, environmentSettings, skyDirections, meshes, occluders, textures, materials, pores, layout, draws, ranges, profiles,
     stretch, seams, oppositeVertices, lights, viewBuffers, target,
     // Written by passes
     surface, seen, lightMaps, thickness, tiles, visibility, irradiance, levels, exitance, picture

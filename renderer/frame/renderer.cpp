@@ -61,6 +61,7 @@ NeedsInput factsOf(const FrameContext& frame) {
         facts.twoLobedMaterials += skin.specular > 0 && skin.lobeWeight > 0;
         facts.poredMaterials += skin.specular > 0 && skin.detail > 0;
     }
+    facts.poresResolved = resolvesPores(frame);
     return facts;
 }
 

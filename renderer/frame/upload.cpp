@@ -129,9 +129,6 @@ void uploadMeshes(FrameContext& frame) {
     gpu::Commands& commands = *frame.commands;
     buffers.indices = uploadBuffer(device, commands, "indices", geometry.indices, true);
     buffers.positions = uploadBuffer(device, commands, "positions", geometry.positions);
-    if (frame.needs[Need::detail] && !geometry.restPositions.empty()) {
-        buffers.restPositions = uploadBuffer(device, commands, "positions at rest", geometry.restPositions);
-    }
     buffers.attributes = uploadBuffer(device, commands, "attributes", geometry.attributes);
     buffers.triangleDraws = uploadBuffer(device, commands, "triangle draws", geometry.triangleDraws);
 }
@@ -139,7 +136,6 @@ void uploadMeshes(FrameContext& frame) {
 void forgetMeshes(FrameContext& frame) {
     SceneBuffers& buffers = frame.scene.buffers;
     buffers.indices = {}, buffers.positions = {}, buffers.attributes = {}, buffers.triangleDraws = {};
-    buffers.restPositions = {};
 }
 
 void uploadSceneTextures(FrameContext& frame) {

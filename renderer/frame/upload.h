@@ -50,6 +50,7 @@ bool reducesLevels(const RenderSettings& settings);
 void uploadMeshes(FrameContext& frame);
 void uploadSceneTextures(FrameContext& frame);
 void uploadMaterials(FrameContext& frame);
+void uploadPores(FrameContext& frame);
 void uploadLayout(FrameContext& frame);
 void uploadStretch(FrameContext& frame);
 void uploadDraws(FrameContext& frame);
@@ -66,6 +67,7 @@ void makeOccluders(FrameContext& frame);
 // They free what these rows wrote.
 void forgetMeshes(FrameContext& frame);
 void forgetTextures(FrameContext& frame);
+void forgetPores(FrameContext& frame);
 void forgetLayout(FrameContext& frame);
 void forgetSeams(FrameContext& frame);
 

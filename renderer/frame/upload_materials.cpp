@@ -1,14 +1,11 @@
 // Materials on the device: what shaders read of them, which textures they sample, and how what they cover is
 // drawn.
 #include <algorithm>
-#include <glm/gtc/packing.hpp>
 #include <iterator>
 
 #include "renderer/frame/frame.h"
 #include "renderer/frame/upload.h"
 #include "renderer/frame/upload_parts.h"
-#include "renderer/gpu/device.h"
-#include "renderer/skin/detail.h"
 #include "renderer/skin/specular.h"
 #include "renderer/skin/specular_lobes.h"
 
@@ -86,44 +83,6 @@ struct TableRow {
     float roughness, narrower, weight;
     bool operator==(const TableRow&) const = default;
 };
-
-void setPores(shared::Material& to, const Material& from, const Scene& scene, const glm::dvec3& origin) {
-    const SkinMaterial& skin = *from.skin;
-    const double narrowest = hasSecondLobe(skin) ? narrowerSlopeOf(skin) : slopeOf(skin);
-    const double strength = skin::detailStrength(skin.detail, narrowest);
-    const double tiles = skin.mmPerUnit / skin.detailScale;
-    to.detailStrength = static_cast<float>(strength);
-    to.detailTiles = static_cast<float>(tiles);
-    to.detailOffset = glm::vec3(glm::fract(origin * tiles));
-    if (from.normalTexture) {
-        const Image& map = scene.images[scene.textures[from.normalTexture.texture].image];
-        to.normalTexels = static_cast<float>(map.width) * static_cast<float>(map.height);
-    }
-    for (int level = 0; level < skin::kDetailLevels; ++level) {
-        to.detailVariance[level] = static_cast<float>(strength * strength * skin::detailTile().variance[level]);
-    }
-}
-
-void uploadDetailTile(FrameContext& frame) {
-    SceneBuffers& buffers = frame.scene.buffers;
-    if (!frame.needs[Need::detail]) {
-        buffers.detailSlopes = {}, buffers.detailTile = {};
-        return;
-    }
-    if (buffers.detailTile) return;
-    constexpr auto kSize = static_cast<std::uint32_t>(skin::kDetailSize);
-    buffers.detailTile = gpu::Image(*frame.device, {.name = "pores", .format = VK_FORMAT_R16G16_SFLOAT, .width = kSize, .height = kSize,
-                                                    .mips = static_cast<std::uint32_t>(skin::kDetailLevels),
-                                                    .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-    for (std::uint32_t level = 0; level < std::uint32_t(skin::kDetailLevels); ++level) {
-        std::vector<std::uint32_t> texels;
-        for (const glm::vec2& slope : skin::detailTile().slopes[level]) texels.push_back(glm::packHalf2x16(slope));
-        frame.commands->upload(buffers.detailTile.layer(0).mip(level), texels);
-    }
-    buffers.detailSlopes = gpu::sampled(
-        buffers.detailTile, frame.device->sampler({.filter = VK_FILTER_LINEAR, .u = VK_SAMPLER_ADDRESS_MODE_REPEAT,
-                                                   .v = VK_SAMPLER_ADDRESS_MODE_REPEAT, .anisotropy = 1}));
-}
 
 // At normal incidence: ((n - 1) / (n + 1))² of each colour.
 glm::vec3 reflectanceOf(const Dielectric& dielectric) {
@@ -259,7 +218,8 @@ void uploadMaterials(FrameContext& frame) {
     std::vector<std::vector<float>> albedo;
     const auto rowOf = [&](const TableRow& row) {
         const std::size_t place = indexOf(rows, row);
-        if (place == albedo.size()) albedo.push_back(skin::mixedAlbedoRow(row.roughness, row.narrower, row.weight));
+        if (place == albedo.size())
+            albedo.push_back(skin::mixedAlbedoRow(row.roughness, row.narrower, row.weight));
         return static_cast<std::uint32_t>(place);
     };
     for (const int index : skinMaterials(scene, frame.geometry)) {
@@ -276,7 +236,6 @@ void uploadMaterials(FrameContext& frame) {
         to.slope2 = layer.narrower;
         to.lobeWeight = layer.weight;
         if (hasSecondLobe(skin)) to.albedoRow2 = rowOf({layer.narrower, 0, 0});
-        if (frame.needs[Need::detail]) setPores(to, scene.materials[index], scene, frame.geometry.origin);
     }
     std::vector<float> table;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -284,7 +243,6 @@ void uploadMaterials(FrameContext& frame) {
         table.insert(table.end(), albedo[i].begin(), albedo[i].end());
         table.insert(table.end(), lobes.begin(), lobes.end());
     }
-    uploadDetailTile(frame);
     SceneBuffers& buffers = frame.scene.buffers;
     buffers.materials = uploadBuffer(*frame.device, *frame.commands, "materials", materials);
     buffers.albedoTable = uploadBuffer(*frame.device, *frame.commands, "directional albedo", table);

@@ -248,10 +248,12 @@ void shadePoints(gpu::Device& device, gpu::Commands& commands, const CompositeIn
         shader += "+AOVS";
         bindings.push_back({"aovs", target.aovs});
     }
-    if (skin && !matte && scene.detailTile) {
+    if (skin && !matte && scene.pores.tile) {
+        const gpu::Buffer& rest = scene.pores.restPositions;
         shader += "+DETAIL";
-        bindings.push_back({"RestPositionBuffer", scene.restPositions ? scene.restPositions : scene.positions});
-        bindings.push_back({"detailSlopes", scene.detailSlopes});
+        bindings.push_back({"RestPositionBuffer", rest ? rest : scene.positions});
+        bindings.push_back({"PoreBuffer", scene.pores.materials});
+        bindings.push_back({"detailSlopes", scene.pores.slopes});
     }
     ShadePush push{tile.origin, tile.pictureSize, matte ? 0 : input.lights->sampleCount, 1.0f, 0, 0};
     for (int i = 0; i < kAovCount; ++i) {

@@ -15,8 +15,8 @@ namespace cutis {
 
 // The specular layer of one kind of skin.
 struct SkinSpecular {
-    float roughness = 0.3f;  // m, Beckmann rms slope
-    float scale = 1;         // s
+    float roughness = 0.3f;          // m, Beckmann rms slope
+    float scale = 1;                 // s
     float narrower = 0, weight = 0;  // m of the second lobe, and its share; both 0: there is none
     bool operator==(const SkinSpecular&) const = default;
 };

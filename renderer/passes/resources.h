@@ -42,6 +42,14 @@ struct SeamLists {
     gpu::Buffer metrics;  // of those at full resolution: AtlasVertex::metric at the border
 };
 
+// Pores of skin; empty where none are seen.
+struct PoreBuffers {
+    gpu::Buffer materials;        // shared::Pores, one a material
+    gpu::Buffer restPositions;    // of a scene that can move
+    gpu::Image tile;              // slopes (renderer/skin/detail.h), all levels
+    gpu::SampledImage slopes{};   // of tile
+};
+
 // The scene on the device, uploaded once (frame/upload.cpp).
 struct SceneBuffers {
     gpu::Buffer indices, proxyIndices, positions, attributes, atlasVertices, triangleDraws, draws, materials;
@@ -56,9 +64,7 @@ struct SceneBuffers {
     bool seenThrough = true;  // some range may be blended
     bool skinShines = true;   // some skin may have a specular layer
     std::uint32_t layers = 0;  // LAYER_ bits, specialization constant 3 of what shades
-    gpu::Buffer restPositions;  // of a scene that can move; only with pores
-    gpu::Image detailTile;      // slopes of pores (renderer/skin/detail.h), all levels; only with pores
-    gpu::SampledImage detailSlopes;
+    PoreBuffers pores;
     std::uint32_t textureGroups = 0,
                   textureSlots = 0;  // specialization constants 0 and 1 of what samples textures
     gpu::Specialization textureConstants() const { return {{0, textureGroups}, {1, textureSlots}}; }

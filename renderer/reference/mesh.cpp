@@ -85,7 +85,8 @@ PlacedScene placeScene(const Scene& scene) {
             mesh.character = scene.nodeCharacter.empty() ? -1 : scene.nodeCharacter[node];
             mesh.skin = mesh.material->skin.has_value() && mesh.character >= 0;
             if (mesh.skin && mesh.material->skin->detail > 0) {
-                for (const glm::vec3& p : primitive.restPositions.empty() ? primitive.positions : primitive.restPositions)
+                for (const glm::vec3& p :
+                     primitive.restPositions.empty() ? primitive.positions : primitive.restPositions)
                     mesh.restPositions.emplace_back(restWorlds[node] * glm::dvec4(p, 1));
             }
             placed.meshes.push_back(std::move(mesh));

@@ -18,12 +18,12 @@ struct PlacedMesh {
     int character = -1;  // index into Scene::characters
     bool skin = false;   // of a character
     std::vector<std::array<float, 4>>
-        positions;                         // metres from the scene's centre; the fourth pads for Embree
+        positions;                          // metres from the scene's centre; the fourth pads for Embree
     std::vector<glm::dvec3> restPositions;  // world, at rest; only of skin with pores
-    std::vector<glm::dvec3> normals;       // unit
-    std::vector<glm::dvec4> tangents;      // or empty
-    const Primitive* primitive = nullptr;  // texture coordinates and colours
-    std::vector<std::uint32_t> indices;    // three a triangle, counter-clockwise seen from the front
+    std::vector<glm::dvec3> normals;        // unit
+    std::vector<glm::dvec4> tangents;       // or empty
+    const Primitive* primitive = nullptr;   // texture coordinates and colours
+    std::vector<std::uint32_t> indices;     // three a triangle, counter-clockwise seen from the front
 
     glm::dvec3 position(std::uint32_t vertex) const {
         const std::array<float, 4>& p = positions[vertex];

@@ -5,7 +5,6 @@
 
 #include "renderer/reference/directions.h"
 #include "renderer/skin/detail.h"
-#include "renderer/skin/specular.h"
 
 namespace cutis::reference {
 namespace {
@@ -47,10 +46,8 @@ double mappedLevel(const Hit& hit, double tiles) {
 Pores poresAt(const Hit& hit, const SurfacePoint& point) {
     const SkinMaterial& skin = *point.material->skin;
     Pores pores{point.normal};
-    const double roughness = std::max(skin.roughness, skin::kMinRoughness);
-    const double narrowest =
-        skin.lobeWeight > 0 ? std::max(roughness * skin.lobeRatio, skin::kMinRoughness) : roughness;
-    const double strength = skin::detailStrength(skin.detail, narrowest);
+    const double strength = skin::detailStrength(
+        skin.detail, skin::narrowestSlope(skin.roughness, skin.lobeWeight, skin.lobeRatio));
     if (!(strength > 0)) return pores;
     const auto vertex = hit.mesh->triangle(hit.triangle);
     glm::dvec3 rest[3], posed[3];

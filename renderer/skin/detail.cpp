@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "renderer/skin/specular.h"
+
 namespace cutis::skin {
 namespace {
-
-constexpr int kCells = 20;  // of the skin's grain along a side of the tile
 
 // A number in [0,1) for each cell (PCG, O'Neill 2014): the same on every machine.
 double randomOf(std::uint32_t seed) {
@@ -17,20 +17,22 @@ double randomOf(std::uint32_t seed) {
     return ((x >> 22u) ^ x) / 4294967296.0;
 }
 
-glm::dvec2 seedOf(int column, int row) {
-    const auto wrap = [](int i) { return static_cast<std::uint32_t>((i % kCells + kCells) % kCells); };
-    const std::uint32_t cell = wrap(row) * kCells + wrap(column);
-    return {column + 0.1 + 0.8 * randomOf(2 * cell), row + 0.1 + 0.8 * randomOf(2 * cell + 1)};
+// Scattered points, one in each cell of a grid of `cells` along a side of the tile.
+glm::dvec2 pointOf(int column, int row, int cells) {
+    const auto wrap = [&](int i) { return static_cast<std::uint32_t>((i % cells + cells) % cells); };
+    const std::uint32_t cell = 10007u * cells + wrap(row) * cells + wrap(column);
+    return {column + randomOf(2 * cell), row + randomOf(2 * cell + 1)};
 }
 
 // Plates between furrows, as skin's surface has them: domes about scattered points, which fall off towards
-// the lines where two of these are equally far (Worley 1996).
-double heightAt(const glm::dvec2& p) {
+// the lines where two of these are equally far (Worley 1996). `place`: 1 across the tile.
+double platesAt(const glm::dvec2& place, int cells) {
+    const glm::dvec2 p = place * double(cells);
     const int column = static_cast<int>(std::floor(p.x)), row = static_cast<int>(std::floor(p.y));
     double nearest = std::numeric_limits<double>::infinity(), second = nearest;
     for (int y = row - 2; y <= row + 2; ++y) {
         for (int x = column - 2; x <= column + 2; ++x) {
-            const double distance = glm::distance(p, seedOf(x, y));
+            const double distance = glm::distance(p, pointOf(x, y, cells));
             if (distance < nearest) {
                 second = nearest, nearest = distance;
             } else {
@@ -39,7 +41,12 @@ double heightAt(const glm::dvec2& p) {
         }
     }
     const double toEdge = (second - nearest) / 0.35;
-    return -std::exp(-toEdge * toEdge) - 0.25 * nearest * nearest;
+    return (-std::exp(-toEdge * toEdge) - 0.25 * nearest * nearest) / cells;
+}
+
+// Wide furrows between plates, and shallower ones across these.
+double heightAt(const glm::dvec2& place) {
+    return platesAt(place, 17) + 0.6 * platesAt(place, 29);
 }
 
 int wrapped(long long i, int size) {
@@ -64,7 +71,7 @@ DetailTile makeTile() {
     std::vector<double> height;
     for (int y = 0; y < kDetailSize; ++y) {
         for (int x = 0; x < kDetailSize; ++x)
-            height.push_back(heightAt((glm::dvec2(x, y) + 0.5) * (double(kCells) / kDetailSize)));
+            height.push_back(heightAt((glm::dvec2(x, y) + 0.5) / double(kDetailSize)));
     }
     const auto at = [&](int x, int y) {
         return height[std::size_t(wrapped(y, kDetailSize)) * kDetailSize + wrapped(x, kDetailSize)];
@@ -126,6 +133,10 @@ const DetailTile& detailTile() {
 
 double detailStrength(double asked, double narrowest) {
     return std::min(asked, std::sqrt(0.5 * narrowest * narrowest / kDetailVariance));
+}
+
+double narrowestSlope(double m, double lobeWeight, double lobeRatio) {
+    return std::max(lobeWeight > 0 ? m * lobeRatio : m, kMinRoughness);
 }
 
 }  // namespace cutis::skin

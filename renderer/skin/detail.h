@@ -36,11 +36,18 @@ struct DetailTile {
 
 inline constexpr double kDetailVariance = 0.02;  // E|s|² at strength 1: an rms slope of 8 degrees
 
-// Made at the first call, in some milliseconds.
+// Pixels wider than this share of the tile show less than a hundredth of its variance: texels of level 5 and
+// coarser, two pixels each, hold no more.
+inline constexpr double kDetailWidest = 16.0 / kDetailSize;
+
+// Made at the first call, in a tenth of a second.
 const DetailTile& detailTile();
 
 // The strength that a material's relief really has: as asked for, but never more than leaves its narrowest
 // lobe, of rms slope m, half of m².
 double detailStrength(double asked, double narrowest);
+
+// The rms slope of a material's narrowest lobe: its roughness m, or with a second lobe that lobe's.
+double narrowestSlope(double m, double lobeWeight, double lobeRatio);
 
 }  // namespace cutis::skin

@@ -16,12 +16,12 @@ vec3 detailGradient(vec3 place, vec3 n, float level) {
 }
 
 // E|s|² that lookups at this level show.
-float detailVariance(Material material, float level) {
+float detailVariance(Pores pores, float level) {
     float clamped = clamp(level, 0.0, float(DETAIL_LEVELS - 1));
     int below = min(int(clamped), DETAIL_LEVELS - 2);
     float kept = 1.0 - (clamped - float(below));
     kept *= kept;
-    return kept * material.detailVariance[below] + (1.0 - kept) * material.detailVariance[below + 1];
+    return kept * pores.variance[below] + (1.0 - kept) * pores.variance[below + 1];
 }
 
 // Columns: along the first edge, across it, normal.
@@ -31,34 +31,32 @@ mat3 triangleFrame(vec3 a, vec3 b, vec3 c) {
 }
 
 // What the normal map of a triangle shows of it: the level whose texels are as wide as the map's. `tiles`: area of the triangle.
-float mappedDetailLevel(Material material, float tiles, VertexAttributes a, VertexAttributes b, VertexAttributes c) {
-    if (!(material.normalTexels > 0.0)) return float(DETAIL_LEVELS - 1);
-    TextureRef ref = material.normalTexture;
+float mappedDetailLevel(Pores pores, TextureRef ref, float tiles, VertexAttributes a, VertexAttributes b, VertexAttributes c) {
+    if (!(pores.normalTexels > 0.0)) return float(DETAIL_LEVELS - 1);
     vec2 e = ref.texCoord == 1 ? b.uv1 - a.uv1 : b.uv0 - a.uv0, f = ref.texCoord == 1 ? c.uv1 - a.uv1 : c.uv0 - a.uv0;
     float turned = abs(ref.u.x * ref.v.y - ref.u.y * ref.v.x);
-    float texels = abs(e.x * f.y - e.y * f.x) * 0.5 * turned * material.normalTexels;
+    float texels = abs(e.x * f.y - e.y * f.x) * 0.5 * turned * pores.normalTexels;
     return 0.5 * log2(max(tiles * float(DETAIL_SIZE * DETAIL_SIZE) / max(texels, 1e-12), 1.0));
 }
 
 // The normal with what is resolved of the relief; `removed`: what of E|s|² is so shown, and no longer roughness.
-// posed: the triangle; r: its vertices at rest; w, wx, wy: barycentric, here and one step to the right and below.
-vec3 detailedNormal(Material material, Triangle posed, vec3 ra, vec3 rb, vec3 rc, vec3 w, vec3 wx, vec3 wy,
-                    VertexAttributes va, VertexAttributes vb, VertexAttributes vc, vec3 smoothNormal, vec3 n,
-                    out float removed) {
-    float tiles = material.detailTiles;
-    vec3 place = interpolate(w, ra, rb, rc) * tiles + material.detailOffset;
-    vec3 dx = interpolate(wx - w, ra, rb, rc) * tiles, dy = interpolate(wy - w, ra, rb, rc) * tiles;
-    // Texels as wide as the pixel is long on the skin: nothing is finer than a pixel, at grazing view either.
-    float seen = 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)) * float(DETAIL_SIZE * DETAIL_SIZE), 1.0));
-    float area = 0.5 * length(cross(rb - ra, rc - ra)) * tiles * tiles;
-    float mapped = min(mappedDetailLevel(material, area, va, vb, vc), float(DETAIL_LEVELS - 1));
+// map: of normals; posed, rest: the triangle; w, wx, wy: barycentric, here and one step to the right and below.
+vec3 detailedNormal(Pores pores, TextureRef map, Triangle posed, Triangle rest, vec3 w, vec3 wx, vec3 wy, VertexAttributes va,
+                    VertexAttributes vb, VertexAttributes vc, vec3 smoothNormal, vec3 n, out float removed) {
+    float tiles = pores.tiles;
+    vec3 place = interpolate(w, rest.a, rest.b, rest.c) * tiles + pores.offset;
+    vec3 dx = interpolate(wx - w, rest.a, rest.b, rest.c) * tiles, dy = interpolate(wy - w, rest.a, rest.b, rest.c) * tiles;
+    // Two pixels a texel, by the pixel's longer side: what is near a pixel's size would show as a pattern.
+    float seen = 1.0 + 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)) * float(DETAIL_SIZE * DETAIL_SIZE), 0.25));
+    float area = 0.5 * length(cross(rest.b - rest.a, rest.c - rest.a)) * tiles * tiles;
+    float mapped = min(mappedDetailLevel(pores, map, area, va, vb, vc), float(DETAIL_LEVELS - 1));
     seen = min(seen, mapped);
-    removed = detailVariance(material, seen) - detailVariance(material, mapped);
+    removed = detailVariance(pores, seen) - detailVariance(pores, mapped);
     // The relief lies on the skin at rest, and moves with it.
-    mat3 rest = triangleFrame(ra, rb, rc), now = triangleFrame(posed.a, posed.b, posed.c);
-    vec3 restNormal = rest * (smoothNormal * now);
+    mat3 before = triangleFrame(rest.a, rest.b, rest.c), now = triangleFrame(posed.a, posed.b, posed.c);
+    vec3 restNormal = before * (smoothNormal * now);
     vec3 gradient = detailGradient(place, restNormal, seen) - detailGradient(place, restNormal, mapped);
-    gradient = now * (gradient * rest) * material.detailStrength;
+    gradient = now * (gradient * before) * pores.strength;
     return normalize(n - (gradient - n * dot(n, gradient)));
 }
 

@@ -2,7 +2,6 @@
 // Lengths are metres relative to the scene's origin (the centre of its bounds), unless a name says mm.
 #ifndef CUTIS_SHARED_SCENE_H
 #define CUTIS_SHARED_SCENE_H
-#include "shared/detail.h"
 #include "shared/interop.h"
 CUTIS_SHARED_BEGIN
 
@@ -71,12 +70,6 @@ struct Material {
     float slope2;          // m of the second, narrower lobe
     float lobeWeight;      // its share of the specular layer; 0: there is none
     uint albedoRow2;       // row of the second lobe alone
-    // Pores (renderer/skin/detail.h)
-    float detailStrength;  // multiplies their slopes
-    float detailTiles;     // tiles a metre
-    vec3 detailOffset;     // place of the scene's origin, in tiles
-    float normalTexels;    // of the normal map; 0: there is none
-    float detailVariance[DETAIL_LEVELS];  // E|s|² that each level shows
     uint matteLayer;       // index of m among the environment's prefiltered matte maps
     // What is not skin (docs/model.md)
     vec3 reflectance;    // of the dielectric at normal incidence, of colour and index of refraction

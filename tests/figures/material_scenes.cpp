@@ -109,7 +109,7 @@ Scene pores() {
                       builder.addSkin(skinOf(0, 1), {0.75, 0.5, 0.42}));
     builder.addObject("two-lobed skin", makeSphere(8 * kMm, SphereMapping::latLong),
                       builder.addSkin(skinOf(0.35, 0.7), {0.75, 0.5, 0.42}), at(18, 0, 0));
-    builder.setOrthographicCamera(glm::dvec3(0, 0, 100) * kMm, {0, 0, 0}, 56 * kMm);
+    builder.setOrthographicCamera(glm::dvec3(0, 0, 100) * kMm, {0, 0, 0}, 20 * kMm);
     return builder.scene();
 }
 
