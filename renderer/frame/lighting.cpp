@@ -20,6 +20,37 @@ std::optional<glm::dvec3> subjectOf(const Scene& scene) {
     return bounds.empty() ? std::nullopt : std::optional(bounds.centre());
 }
 
+// A light that is this many times as far from the scene as the scene is large, and as strong all over it,
+// shines in parallel, within 1 / kFar rad. As a point it would be known only by distances whose last digits
+// are larger than what stands behind what: at 1,000 km floats are 60 mm apart.
+constexpr double kFar = 2000, kAsStrong = 2e-3;
+
+void makeFarParallel(std::vector<LightSample>& samples, const Bounds& scene) {
+    if (scene.empty()) return;
+    const double size = 0.5 * glm::length(scene.size());
+    for (LightSample& sample : samples) {
+        const glm::dvec3 away = scene.centre() - sample.position;
+        const double distance = glm::length(away);
+        if (sample.directional || !(distance > kFar * size)) continue;
+        const glm::dvec3 direction = away / distance;
+        const glm::dvec3 irradiance = irradianceFrom(sample, scene.centre(), -direction);
+        bool even = true;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 p(corner & 1 ? scene.max.x : scene.min.x, corner & 2 ? scene.max.y : scene.min.y,
+                               corner & 4 ? scene.max.z : scene.min.z);
+            const glm::dvec3 off = glm::abs(irradianceFrom(sample, p, -direction) - irradiance);
+            even = even && glm::all(glm::lessThanEqual(off, kAsStrong * irradiance));
+        }
+        if (!even || irradiance == glm::dvec3(0)) continue;
+        sample = {.light = sample.light,
+                  .directional = true,
+                  .direction = direction,
+                  .intensity = irradiance,
+                  .shadow = sample.shadow,
+                  .radius = sample.radius / distance};
+    }
+}
+
 void splitOnce(Lighting& lighting, const RenderInput& input, int samples) {
     const bool known = lighting.splitOf == input.environment && lighting.splitSamples == samples &&
                        lighting.splitRevision == input.environmentRevision;
@@ -91,6 +122,7 @@ void readLighting(FrameContext& frame) {
     sampling.seed = frame.settings->seed;
     sampling.subject = subjectOf(*input.scene);
     lighting.samples = sampleLights(input.rig, sampling);
+    makeFarParallel(lighting.samples, input.scene->bounds);
     lighting.leftOut.clear();
     if (frame.settings->prune) leaveOutDarkSamples(frame);
     lighting.environment = nullptr;

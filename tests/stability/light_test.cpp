@@ -73,17 +73,27 @@ std::vector<Extreme> intensities() {
 
 std::vector<Extreme> places() {
     std::vector<Extreme> cases;
-    const std::pair<const char*, double> heights[] = {{"in_the_middle", 0},
-                                                      {"inside", 0.05},
-                                                      {"under_the_surface", 0.09999},
-                                                      {"on_the_surface", 0.1},
-                                                      {"touching", 0.100001},
-                                                      {"a_millimetre_away", 0.101},
-                                                      {"a_thousand_kilometres_away", 1e6}};
+    const std::pair<const char*, double> heights[] = {
+        {"in_the_middle", 0},    {"inside", 0.05},       {"under_the_surface", 0.09999},
+        {"on_the_surface", 0.1}, {"touching", 0.100001}, {"a_millimetre_away", 0.101}};
     for (const auto& [name, z] : heights)
         cases.push_back({std::string("point_") + name, [z = z] {
                              return lit(pointLight("bulb", {0, 0, z}, 1));
                          }});
+    // Far lights are parallel ones.
+    const Expected parallel = rendered([] { return lit(directionalLight("sun", {0, 0, -1}, 1)); });
+    const std::pair<const char*, double> distances[] = {
+        {"30_metres_away", 30}, {"300_metres_away", 300}, {"a_thousand_kilometres_away", 1e6}};
+    for (const auto& [name, z] : distances) {
+        cases.push_back({std::string("point_") + name,
+                         [z = z] {
+                             return lit(pointLight("bulb", {0, 0, z}, 1));
+                         },
+                         {},
+                         parallel,
+                         1 / (z * z),
+                         z < 100 ? 6e-3 : 6e-4});
+    }
     // Before a plate that keeps all light off, also off the terminator, where highlights are strongest.
     cases.push_back({"behind_a_plate",
                      [] {
@@ -133,6 +143,25 @@ Extreme environment(const std::string& name, int width, int height,
             bounds};
 }
 
+// One of 64 x 32 texels, in the third row above the horizon and the first column beside +Z: the light of its
+// solid angle, all from where it is. It is 5.6 degrees across.
+Extreme oneLitTexel() {
+    const double step = std::numbers::pi / 32, elevation = 2.5 * step, azimuth = 0.5 * step;
+    const glm::dvec3 place(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                           std::cos(azimuth) * std::cos(elevation));
+    const double solidAngle = step * (std::sin(3 * step) - std::sin(2 * step));
+    Extreme extreme{"one_lit_texel", [=] {
+                        RenderJob job = sphereJob(SceneBuilder::plainSkin());
+                        job.environment = makeEnvironment(64, 32, [=](const glm::dvec3& d) {
+                            return glm::dvec3(glm::dot(d, place) > std::cos(0.1 * step) ? 100 : 0);
+                        });
+                        return job;
+                    }};
+    extreme.other = rendered([=] { return lit(directionalLight("texel", -place, 100 * solidAngle)); });
+    extreme.tolerance = 0.002;
+    return extreme;
+}
+
 std::vector<Extreme> environments() {
     const auto one = [](const glm::dvec3&) { return glm::dvec3(1); };
     std::vector<Extreme> cases{
@@ -143,15 +172,12 @@ std::vector<Extreme> environments() {
         environment("one_column", 1, 64, one, Bounds3::near(1, 0.03)),
         environment("sun_of_1e9_beside_1e-6", 64, 32,
                     [](const glm::dvec3& d) { return glm::dvec3(d.y > 0.995 ? 1e9 : 1e-6); }),
-        environment("one_lit_texel", 64, 32,
-                    [](const glm::dvec3& d) {
-                        return glm::dvec3(glm::dot(d, {0.1, 0.2, 0.97}) > 0.998 ? 100 : 0);
-                    }),
         environment("near_the_largest_float", 16, 8, [](const glm::dvec3&) { return glm::dvec3(1e30); }),
         environment("near_the_least_float", 16, 8, [](const glm::dvec3&) { return glm::dvec3(1e-30); })};
     for (Extreme& extreme : cases)
         for (char& c : extreme.name)
             if (c == '-') c = 'm';
+    cases.push_back(oneLitTexel());
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     for (const auto& [name, value] : {std::pair{"one_texel_not_a_number", nan},
                                       {"one_texel_infinite", inf},
