@@ -177,7 +177,7 @@ class Prefilter {
         key = hashValue(maxSpread, hashValue(set, key));
         const std::vector<std::byte> cached = readCache("environment-sources", key);
         std::vector<shared::EnvironmentSource> sources(cached.size() / sizeof(shared::EnvironmentSource));
-        std::memcpy(sources.data(), cached.data(), sources.size() * sizeof(sources[0]));
+        if (!sources.empty()) std::memcpy(sources.data(), cached.data(), sources.size() * sizeof(sources[0]));
         std::optional<EnvironmentParts> parts;
         if (sources.empty()) {
             parts = separateSources(environment_, maxSpread);
