@@ -171,10 +171,13 @@ std::string bySquares(int size) {
 }
 
 [[noreturn]] void failToFit(std::vector<ChartShape>& shapes, int size) {
-    std::string why = std::to_string(shapes.size()) + " charts do not fit " + bySquares(size) + " texels";
+    std::size_t islands = 0;
+    for (const ChartShape& shape : shapes) islands += shape.islands.size();
+    std::string why =
+        "its " + std::to_string(islands) + " islands of skin do not fit " + bySquares(size) + " texels";
     for (int larger = 2 * kLeastAtlas; larger <= kLargestAtlas; larger *= 2) {
         if (!packCharts(shapes, larger, kLeastScale)) continue;
-        why += ", but " + bySquares(larger);
+        why += "; " + bySquares(larger) + " would hold them";
         break;
     }
     throw Error("cannot lay out the atlas", why, "--irradiance-size");
