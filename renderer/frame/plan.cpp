@@ -99,15 +99,12 @@ Needs computeNeeds(const NeedsInput& input) {
 }
 
 std::vector<LeftOut> leftOutWithinRows(const Needs& needs) {
-    constexpr std::pair<Need, const char*> kParts[] = {{Need::translucency, "translucency"},
-                                                       {Need::areaLights, "area_lights"},
-                                                       {Need::skinSpecular, "skin_specular"},
-                                                       {Need::transparency, "transparency"},
-                                                       {Need::clearcoat, "clearcoat"},
-                                                       {Need::sheen, "sheen"},
-                                                       {Need::transmission, "transmission"},
-                                                       {Need::secondLobe, "second_lobe"},
-                                                       {Need::detail, "pores"}};
+    constexpr std::pair<Need, const char*> kParts[] = {
+        {Need::translucency, "translucency"},  {Need::areaLights, "area_lights"},
+        {Need::skinSpecular, "skin_specular"}, {Need::transparency, "transparency"},
+        {Need::clearcoat, "clearcoat"},        {Need::sheen, "sheen"},
+        {Need::transmission, "transmission"},  {Need::secondLobe, "second_lobe"},
+        {Need::detail, "skin_pores"}};
     std::vector<LeftOut> parts;
     for (const auto& [need, name] : kParts) {
         if (!needs[need]) parts.push_back({name, needs.why(need)});

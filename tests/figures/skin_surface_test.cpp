@@ -110,7 +110,7 @@ TEST(SkinSurface, PoresReflectAsMuchFromEveryDistance) {
         expectAtMost(name + "mean light to that of smooth skin", std::abs(meanOf(with) / meanOf(without) - 1),
                      0.03);
         // Where no pixel resolves them they are left out.
-        EXPECT_EQ(result.stats.leftOut.count("pores"), size == 12 ? 1u : 0u);
+        EXPECT_EQ(result.stats.leftOut.count("skin_pores"), size == 12 ? 1u : 0u);
         if (size == 384) {
             EXPECT_GT(difference, 0.2) << "pores are seen";
         }

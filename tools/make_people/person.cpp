@@ -157,9 +157,14 @@ int addSkin(GltfFile& file, const fs::path& folder, const Sources& sources, cons
                                         {"metallicFactor", 0},
                                         {"roughnessFactor", 0.5}};
     material["normalTexture"] = {{"index", file.addTexture(normal)}};
-    material["extras"]["skin"] = {
-        {"profile", "three-layer"},         {"mix", person.skin.mix}, {"roughness", person.skin.roughness},
-        {"specular", person.skin.specular}, {"translucency", true},   {"mm_per_unit", 1000}};
+    material["extras"]["skin"] = {{"profile", "three-layer"},
+                                  {"mix", person.skin.mix},
+                                  {"roughness", person.skin.roughness},
+                                  {"specular", person.skin.specular},
+                                  {"lobe_weight", person.skin.lobeWeight},
+                                  {"detail", person.skin.detail},
+                                  {"translucency", true},
+                                  {"mm_per_unit", 1000}};
     return addMeshNode(file, person.name + " skin", mesh, file.addMaterial(material));
 }
 

@@ -67,6 +67,8 @@ SkinRecipe readSkin(const json& object, const std::string& path) {
     fields.read("roughness", skin.roughness);
     fields.read("mix", skin.mix);
     fields.read("specular", skin.specular);
+    fields.read("lobe_weight", skin.lobeWeight);
+    fields.read("detail", skin.detail);
     fields.finish();
     return skin;
 }

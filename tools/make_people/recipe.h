@@ -10,19 +10,21 @@
 namespace cutis::people {
 
 struct SkinRecipe {
-    std::string map;         // a file under MakeHuman's public/data/skins, or "morse" for the 2048² map
-    glm::dvec3 gain{1};      // multiplies the map's albedo
-    double contrast = 1;     // of the map's variation about its mean colour
-    double blotches = 1;     // uneven blood: strength of slow reddish variation
-    double freckles = 0;     // pigment spots: share of the spots that show, 0 to 1
-    double pores = 1;        // depth of pores
-    double wrinkles = 1;     // depth of fine creases
-    double lips = 0;         // blood in the lips, beyond what the map has
-    double flush = 0;        // blood in cheeks, nose and ears, likewise
-    double stubble = 0;      // shaved beard: strength of dark dots on the lower face
-    double roughness = 0.3;  // written to extras.skin
-    double mix = 0.5;        // written to extras.skin
-    double specular = 1;     // written to extras.skin
+    std::string map;           // a file under MakeHuman's public/data/skins, or "morse" for the 2048² map
+    glm::dvec3 gain{1};        // multiplies the map's albedo
+    double contrast = 1;       // of the map's variation about its mean colour
+    double blotches = 1;       // uneven blood: strength of slow reddish variation
+    double freckles = 0;       // pigment spots: share of the spots that show, 0 to 1
+    double pores = 1;          // depth of pores
+    double wrinkles = 1;       // depth of fine creases
+    double lips = 0;           // blood in the lips, beyond what the map has
+    double flush = 0;          // blood in cheeks, nose and ears, likewise
+    double stubble = 0;        // shaved beard: strength of dark dots on the lower face
+    double roughness = 0.3;    // written to extras.skin
+    double mix = 0.5;          // written to extras.skin
+    double specular = 1;       // written to extras.skin
+    double lobeWeight = 0.25;  // of a second lobe, half as rough; written to extras.skin
+    double detail = 1;         // pores finer than the maps hold; written to extras.skin
 };
 
 struct HairRecipe {
