@@ -238,15 +238,32 @@ void quit(Session& session) {
     whenSaved(session, [](Session& s) { s.quit = true; });
 }
 
+namespace {
+
+// The chosen light stays the chosen one where undo or redo puts the lights into another order.
+template <class Step>
+void keepChosen(Session& session, const Step& step) {
+    const std::size_t count = session.document().rig.lights.size();
+    const std::string name = session.hasLight() ? session.light().name : "";
+    step();
+    const std::vector<Light>& lights = session.document().rig.lights;
+    if (name.empty() || lights.size() != count || session.light().name == name) return;
+    const auto there =
+        std::find_if(lights.begin(), lights.end(), [&](const Light& light) { return light.name == name; });
+    if (there != lights.end()) session.selectedLight = static_cast<int>(there - lights.begin());
+}
+
+}  // namespace
+
 void undo(Session& session) {
     const std::string label = session.edits.undoLabel();
-    session.edits.undo();
+    keepChosen(session, [&] { session.edits.undo(); });
     session.say(label.empty() ? "Nothing to undo" : "Undone: " + label);
 }
 
 void redo(Session& session) {
     const std::string label = session.edits.redoLabel();
-    session.edits.redo();
+    keepChosen(session, [&] { session.edits.redo(); });
     session.say(label.empty() ? "Nothing to redo" : "Redone: " + label);
 }
 

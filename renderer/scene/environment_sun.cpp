@@ -1,21 +1,41 @@
 #include "renderer/scene/environment_sun.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "renderer/scene/environment_clusters.h"
 #include "renderer/scene/environment_samples.h"
 
 namespace cutis {
 
-std::optional<EnvironmentSun> findSun(const Environment& environment) {
-    const EnvironmentSplit split = splitEnvironment(environment, 1, 0, 1);
+namespace {
+
+double sumOf(const glm::dvec3& rgb) {
+    return rgb.x + rgb.y + rgb.z;
+}
+
+// The sun and the rest; none where what stands out gives too little to be one.
+std::optional<EnvironmentSplit> splitSun(const Environment& environment) {
+    EnvironmentSplit split = splitEnvironment(environment, 1, 0, 1);
     if (split.samples.empty()) return std::nullopt;
-    const LightSample& sample = split.samples[0];
+    double whole = 0;
+    for (const EnvironmentCluster& cluster : clusterEnvironment(environment, 1)) whole += sumOf(cluster.flux);
+    if (sumOf(split.samples[0].intensity) < kLeastSunShare * whole) return std::nullopt;
+    return split;
+}
+
+}  // namespace
+
+std::optional<EnvironmentSun> findSun(const Environment& environment) {
+    const std::optional<EnvironmentSplit> split = splitSun(environment);
+    if (!split) return std::nullopt;
+    const LightSample& sample = split->samples[0];
     return EnvironmentSun{-sample.direction, sample.intensity, sample.radius};
 }
 
 void removeSun(Environment& environment) {
-    environment.radiance = splitEnvironment(environment, 1, 0, 1).residual.radiance;
+    if (std::optional<EnvironmentSplit> split = splitSun(environment))
+        environment.radiance = std::move(split->residual.radiance);
 }
 
 Light sunLight(const EnvironmentSun& sun, const EnvironmentSettings& settings) {

@@ -13,6 +13,10 @@ struct EnvironmentSun {
     double radius = 0;            // of a disc as wide, radians
 };
 
+// What gives less than this share of all light (∫ L dω, R+G+B) is no sun: in a studio of several lamps as
+// bright as each other, a single texel stands out by next to nothing.
+inline constexpr double kLeastSunShare = 0.01;
+
 // The one compact part that stands out (splitEnvironment with one sample); none where none does.
 std::optional<EnvironmentSun> findSun(const Environment& environment);
 

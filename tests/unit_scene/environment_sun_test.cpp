@@ -38,6 +38,21 @@ TEST(EnvironmentSun, AnEvenSkyHasNone) {
     EXPECT_FALSE(findSun(Environment{"sky", 64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0))}));
 }
 
+// Two lamps, one of them a hundredth brighter: what stands out is a hundredth of a half of the light, and
+// stays where it is.
+TEST(EnvironmentSun, OneOfTwoLampsIsNone) {
+    Environment studio{"studio", 64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0))};
+    studio.radiance[16 * 64 + 16] = glm::vec3(100);
+    studio.radiance[16 * 64 + 48] = glm::vec3(101);
+    EXPECT_FALSE(findSun(studio));
+    Environment rest = studio;
+    removeSun(rest);
+    EXPECT_EQ(rest.radiance, studio.radiance);
+    // As bright as three of the other, it is one.
+    studio.radiance[16 * 64 + 48] = glm::vec3(300);
+    EXPECT_TRUE(findSun(studio));
+}
+
 // The sun is 10 degrees wide: its light, as if from one direction, differs from the exact one by that width
 // squared at most, some 0.3 %.
 TEST(EnvironmentSun, LightIsTheSameInAll) {

@@ -101,6 +101,21 @@ TEST_F(SessionTest, WhatIsSavedIsNotKept) {
     EXPECT_FALSE(keepAutosave());
 }
 
+TEST_F(SessionTest, TheChosenLightStaysChosenInAnotherOrder) {
+    const auto session = openTwoHeads();
+    session->edits.apply("Add", [](Document& document) { addLight(document, LightType::spot); });
+    session->edits.endGesture();
+    session->edits.apply("Reorder", [](Document& document) { moveLight(document, 1, 0); });
+    session->selectedLight = 0;
+    const std::string name = session->light().name;
+    ASSERT_NE(name, "key");
+    undo(*session);
+    EXPECT_EQ(session->light().name, name);
+    EXPECT_EQ(session->selectedLight, 1);
+    redo(*session);
+    EXPECT_EQ(session->selectedLight, 0);
+}
+
 // Waits for what runs in the background.
 template <class Done>
 void waitFor(const Done& done) {

@@ -17,8 +17,11 @@ std::string nameOf(const Playback& playback, int animation) {
     return name.empty() ? "animation " + std::to_string(animation) : name;
 }
 
-void drawChoice(Playback& playback) {
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7.5f);
+// Widths of the line in which the speed finds room beside the time, and the loop; in sizes of the font.
+constexpr float kRoomForSpeed = 41, kRoomForLoop = 36, kRoomForNames = 26;
+
+void drawChoice(Playback& playback, float room) {
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * (room < kRoomForNames ? 5.0f : 7.5f));
     const int chosen = playback.pose().animation;
     const bool open = ImGui::BeginCombo("##animation", nameOf(playback, chosen).c_str());
     if (!open) return optionHint("--animation");
@@ -29,7 +32,7 @@ void drawChoice(Playback& playback) {
     ImGui::EndCombo();
 }
 
-void drawButtons(Playback& playback) {
+void drawButtons(Playback& playback, float room) {
     const float width = ImGui::GetFontSize() * 3.2f;
     ImGui::SameLine();
     if (ImGui::Button(playback.playing() ? "Pause" : "Play", {width, 0})) playback.toggle();
@@ -40,28 +43,45 @@ void drawButtons(Playback& playback) {
     ImGui::SameLine();
     if (ImGui::ArrowButton("after", ImGuiDir_Right)) playback.step(1);
     hint("The next frame (Right)");
+    if (room < kRoomForLoop) return;
     ImGui::SameLine();
     ImGui::Checkbox("Loop", &playback.loop);
     hint("Begin anew at the end");
 }
 
+// How the time is written: as much as finds room.
+std::string timeFormat(const Playback& playback, float width) {
+    char of[32], frame[32], shown[96];
+    std::snprintf(of, sizeof of, " of %.2f", playback.duration());
+    std::snprintf(frame, sizeof frame, ", frame %d", playback.frame());
+    const std::string formats[] = {std::string("%.2f") + of + " s" + frame, std::string("%.2f") + of + " s",
+                                   "%.2f s"};
+    for (const std::string& format : formats) {
+        std::snprintf(shown, sizeof shown, format.c_str(), playback.duration());
+        if (ImGui::CalcTextSize(shown).x + 2 * ImGui::GetStyle().FramePadding.x <= width) return format;
+    }
+    return "%.1f";
+}
+
 // The place in time takes what room the rest leaves.
-void drawTime(Playback& playback) {
+void drawTime(Playback& playback, float room) {
     const float speedWidth = ImGui::GetFontSize() * 4.2f, gap = ImGui::GetStyle().ItemSpacing.x;
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - speedWidth - gap);
+    const bool speed = room >= kRoomForSpeed;
+    const float width = ImGui::GetContentRegionAvail().x - (speed ? speedWidth + gap : 0);
+    ImGui::SetNextItemWidth(width);
     const double begin = 0, end = playback.duration();
     double seconds = playback.pose().seconds;
-    char format[64];
-    std::snprintf(format, sizeof format, "%%.2f of %.2f s, frame %d", end, playback.frame());
+    const std::string format = timeFormat(playback, width);
     ImGui::BeginDisabled(end <= 0);
-    if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &seconds, &begin, &end, format,
+    if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &seconds, &begin, &end, format.c_str(),
                             ImGuiSliderFlags_AlwaysClamp)) {
         playback.pause();
         playback.seek(seconds);
     }
     ImGui::EndDisabled();
     optionHint("--time");
+    if (!speed) return;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(speedWidth);
     const double slowest = Playback::kSlowest, fastest = Playback::kFastest;
@@ -81,9 +101,11 @@ void drawTimeLine(Session& session, const PixelRect& where) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PopStyleVar();
-    drawChoice(session.playback);
-    drawButtons(session.playback);
-    drawTime(session.playback);
+    // What matters least goes first where there is no room: the speed, the loop.
+    const float room = ImGui::GetWindowWidth() / ImGui::GetFontSize();
+    drawChoice(session.playback, room);
+    drawButtons(session.playback, room);
+    drawTime(session.playback, room);
     ImGui::End();
 }
 
