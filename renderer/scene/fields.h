@@ -24,7 +24,8 @@ struct Field {
     const char* of = "";  // "text", "true or false", …; empty: a number
 
     // The control of a panel: what it covers, how its number is printed, how much of it a pixel of dragging
-    // is worth (0: a slider), and how many of its units one unit of the file is (degrees for radians).
+    // is worth (0: a slider; where it is logarithmic, a share of its value), and how many of its units one
+    // unit of the file is (degrees for radians).
     double low = 0, high = 0;
     const char* format = "%.2f";
     double step = 0;
@@ -365,7 +366,7 @@ inline constexpr Field kMmPerUnit{.key = "mm_per_unit",
                                   .low = 0.001,
                                   .high = 1e6,
                                   .format = "%.4g",
-                                  .step = 1,
+                                  .step = 0.01,
                                   .logarithmic = true};
 
 }  // namespace fields

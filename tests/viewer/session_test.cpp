@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/viewer/actions.h"
 #include "app/viewer/autosave.h"
 #include "app/viewer/comparing.h"
 #include "renderer/scene/gltf_writer.h"

@@ -4,6 +4,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/viewer/style.h"
 
@@ -34,6 +35,13 @@ std::string formatOf(const Field& field, const char* unit) {
     return format + shown;
 }
 
+// What a pixel of dragging adds. ImGui's own logarithmic drags divide that by the whole range, in which a
+// range of six decades does not move at all.
+float dragSpeed(double value, float step, bool logarithmic) {
+    constexpr double kLeast = 1e-3;  // from 0, too, a drag gets away
+    return logarithmic ? step * static_cast<float>(std::max(std::abs(value), kLeast)) : step;
+}
+
 void fieldHint(const Field& field) {
     if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
     const std::string allowed = field.allowed();
@@ -60,11 +68,9 @@ bool fieldPartRow(const Field& field, const char* text, double& value) {
 }
 
 bool fieldCell(const Field& field, double& value) {
-    const ImGuiSliderFlags flags =
-        ImGuiSliderFlags_AlwaysClamp | (field.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-    const bool changed =
-        ImGui::DragScalar("##cell", ImGuiDataType_Double, &value, static_cast<float>(field.step), &field.low,
-                          &field.high, field.format, flags);
+    const float speed = dragSpeed(value, static_cast<float>(field.step), field.logarithmic);
+    const bool changed = ImGui::DragScalar("##cell", ImGuiDataType_Double, &value, speed, &field.low,
+                                           &field.high, field.format, ImGuiSliderFlags_AlwaysClamp);
     fieldHint(field);
     return changed;
 }
@@ -114,10 +120,9 @@ bool choiceOf(const char* text, const char* option, int& index, std::span<const 
 bool dragRow(const char* text, double& value, float speed, double min, double max, const char* format,
              bool logarithmic) {
     label(text);
-    const ImGuiSliderFlags flags =
-        ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-    return ImGui::DragScalar(hidden(text).c_str(), ImGuiDataType_Double, &value, speed, &min, &max, format,
-                             flags);
+    return ImGui::DragScalar(hidden(text).c_str(), ImGuiDataType_Double, &value,
+                             dragSpeed(value, speed, logarithmic), &min, &max, format,
+                             ImGuiSliderFlags_AlwaysClamp);
 }
 
 bool sliderRow(const char* text, double& value, double min, double max, const char* format,
