@@ -43,19 +43,21 @@ void moveToWorld(RenderResult& result, const glm::dvec3& origin) {
 }
 
 const char* nameOf(Input input) {
-    constexpr const char* kNames[kInputCount] = {
-        "geometry",      "pose",        "textures",    "materials",          "skin's specular layer", "albedo mix",           "profiles",
+    constexpr const char* kNames[] = {
+        "geometry",      "pose",        "textures",    "materials",          "skin's specular layer", "pores", "albedo mix",           "profiles",
         "levels", "chain", "atlas size",  "light map size", "needed light maps", "characters in view",     "places of lights",      "intensities of lights", "environment",
         "rotation of the environment", "intensity of the environment", "camera", "picture size", "data channels"};
+    static_assert(std::size(kNames) == kInputCount);
     return kNames[static_cast<int>(input)];
 }
 
 const char* nameOf(Resource resource) {
     constexpr const char* kNames[] = {"filtered environment", "environment settings", "directions of the sky", "meshes", "occluders of the sky",
-                                      "textures", "materials", "atlas layout", "draws", "ranges of draws", "profiles", "stretch", "seams", "opposite sides",
+                                      "textures", "materials", "pores", "atlas layout", "draws", "ranges of draws", "profiles", "stretch", "seams", "opposite sides",
                                       "lights", "view buffers", "picture's memory", "surface", "seen triangles",
                                       "light maps", "thickness", "needed texels", "visibility of the sky", "irradiance",
                                       "blurred levels", "exitance", "picture"};
+    static_assert(std::size(kNames) == static_cast<std::size_t>(Resource::picture) + 1);  // the last of them
     return kNames[static_cast<int>(resource)];
 }
 
