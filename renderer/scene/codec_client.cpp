@@ -164,12 +164,10 @@ void startCodec() {
     }
 }
 
-CodecResult decodeImageMemory(std::span<const std::byte> file, const std::string& format,
-                              const PixelLimits& limits) {
+CodecResult decodeImageMemory(std::span<const std::byte> file, const PixelLimits& limits) {
     codec::Request request;
     request.operation = Operation::decodeMemory;
     request.limits = limits;
-    setText(request.format, format);
     return perform(request, file.size(), file);
 }
 

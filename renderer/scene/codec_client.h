@@ -24,11 +24,12 @@ struct CodecResult {
 // Starts the process in the background: a program that knows that it will need it calls this first thing.
 void startCodec();
 
-// Any thread may call these. `format`: as OpenImageIO names it ("png"). Work that crashes, takes longer than
-// 4 s of processor time, one for every 2 MB of the file and one for every 150 MB that it has decoded, or
-// takes more memory than twice what the limits allow and 512 MiB, has failed and says so. Throws Error when
-// the process cannot be started.
-CodecResult decodeImageMemory(std::span<const std::byte> file, const std::string& format, const PixelLimits&);
+// Any thread may call these. Images are of the formats that codec/image_file.h knows, told apart by content;
+// `format` of one that is made: as OpenImageIO names it ("png"). Work that crashes, takes longer than 4 s of
+// processor time, one for every 2 MB of the file and one for every 150 MB that it has decoded, or takes more
+// memory than twice what the limits allow and 512 MiB, has failed and says so. Throws Error when the process
+// cannot be started.
+CodecResult decodeImageMemory(std::span<const std::byte> file, const PixelLimits&);
 CodecResult decodeImageFile(const std::string& path, const PixelLimits&);
 // The block that codec/draco_codec.h describes, of up to `maxBytes`.
 CodecResult decodeDraco(std::span<const std::byte> data, std::uint64_t maxBytes);

@@ -1,11 +1,9 @@
 #include "renderer/scene/image_io.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
-#include <string_view>
 
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
@@ -68,69 +66,10 @@ void fillRgba16f(Image& image, const CodecResult& pixels) {
     }
 }
 
-std::uint32_t bigEndian(std::span<const std::byte> bytes, std::size_t at) {
-    std::uint32_t word = 0;
-    for (std::size_t i = 0; i < 4; ++i) word = word << 8 | std::to_integer<std::uint32_t>(bytes[at + i]);
-    return word;
-}
-
-// CRC-32 of ISO 3309, as PNG chunks carry it.
-std::uint32_t crc32(std::span<const std::byte> bytes) {
-    static const auto table = [] {
-        std::array<std::uint32_t, 256> entries;
-        for (std::uint32_t i = 0; i < 256; ++i) {
-            entries[i] = i;
-            for (int bit = 0; bit < 8; ++bit)
-                entries[i] = entries[i] >> 1 ^ (entries[i] & 1 ? 0xedb88320u : 0);
-        }
-        return entries;
-    }();
-    std::uint32_t crc = ~0u;
-    for (const std::byte b : bytes) crc = table[(crc ^ std::to_integer<std::uint32_t>(b)) & 0xff] ^ crc >> 8;
-    return ~crc;
-}
-
-// Refuses a truncated or damaged PNG before libpng does, which would print lines of its own on stderr.
-void checkPng(std::span<const std::byte> file, const std::string& name) {
-    constexpr std::size_t kSignature = 8, kFrame = 12;  // length, type and CRC of a chunk
-    constexpr std::uint32_t kEnd = 0x49454e44;          // IEND
-    for (std::size_t at = kSignature;;) {
-        if (at + kFrame > file.size() || bigEndian(file, at) > file.size() - at - kFrame) {
-            refuse(name, "the PNG is truncated");
-        }
-        const std::size_t length = bigEndian(file, at);
-        if (crc32(file.subspan(at + 4, length + 4)) != bigEndian(file, at + 8 + length)) {
-            refuse(name, "the PNG is damaged: a checksum does not fit");
-        }
-        if (bigEndian(file, at + 4) == kEnd) return;
-        at += kFrame + length;
-    }
-}
-
 }  // namespace
 
-std::string imageFormat(std::span<const std::byte> file) {
-    const std::string_view head(reinterpret_cast<const char*>(file.data()),
-                                std::min<std::size_t>(file.size(), 12));
-    const auto starts = [&](std::string_view magic) { return head.starts_with(magic); };
-    if (starts("\x89PNG")) return "png";
-    if (starts("\xff\xd8\xff")) return "jpeg";
-    if (starts("RIFF") && head.size() == 12 && head.substr(8) == "WEBP") return "webp";
-    if (starts(std::string_view("II*\0", 4)) || starts(std::string_view("MM\0*", 4))) return "tiff";
-    if (starts("\x76\x2f\x31\x01")) return "openexr";
-    if (starts("#?")) return "hdr";
-    if (starts("BM")) return "bmp";
-    if (starts("GIF8")) return "gif";
-    return {};
-}
-
 Image decodeImage(std::span<const std::byte> file, const std::string& name, bool* floatFile) {
-    // The reader is chosen by content: the extension of a file or the MIME type of a buffer may be wrong.
-    const std::string format = imageFormat(file);
-    if (format.empty()) refuse(name, "not an image of a known format");
-    if (format == "png") checkPng(file, name);
-    const CodecResult pixels =
-        decodeImageMemory(file, format, {kMaxImageSize, kMaxImageSize, 4, kMaxImageBytes});
+    const CodecResult pixels = decodeImageMemory(file, {kMaxImageSize, kMaxImageSize, 4, kMaxImageBytes});
     if (!pixels.why.empty()) refuse(name, pixels.why);
     Image image;
     image.name = name;

@@ -16,9 +16,6 @@ namespace cutis {
 inline constexpr int kMaxImageSize = 16384;                          // texels along either side
 inline constexpr std::size_t kMaxImageBytes = std::size_t(1) << 30;  // of one image, decoded
 
-// A file's format by its first bytes as OpenImageIO names it ("png", "jpeg", "webp", …), empty when unknown.
-std::string imageFormat(std::span<const std::byte> file);
-
 // Decodes a file in memory: 8-bit files as rgba8, as stored; deeper ones as rgba16f, as stored (NaN becomes
 // 0, ±Inf the largest half). Grey and RGB are expanded, alpha is not premultiplied. `floatFile` tells whether
 // the file holds floating-point, hence linear, values. Throws Error naming `name`.

@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "renderer/scene/gltf_writer.h"
+#include "renderer/scene/image_io.h"
 #include "renderer/scene/picture.h"
 #include "tests/cli/program.h"
 #include "tests/support/lying_png.h"
@@ -93,6 +94,21 @@ void cutSky(Where folder) {
     writeExr(folder / "sky.exr", makeEnvironment(64, 32, [](const glm::dvec3& d) { return d * d; }));
     const std::string whole = readText(folder / "sky.exr");
     writeText(folder / "sky.exr", whole.substr(0, whole.size() / 2));
+}
+
+// Some hundred bytes that claim 15 million texels: decoders of JPEG make up what is not there.
+void lyingJpegSky(Where folder) {
+    writeGlb(twoHeads(), folder / "scene.glb");
+    writePixels(folder / "small.jpg", {{16, 16, 3, SampleType::uint8}, std::vector<std::byte>(16 * 16 * 3)});
+    writeText(folder / "sky.jpg", lyingJpeg(readText(folder / "small.jpg"), 5400, 2700));
+    fs::remove(folder / "small.jpg");
+}
+
+// What libraries of films take for a list of pictures elsewhere.
+void listedSky(Where folder) {
+    writeGlb(twoHeads(), folder / "scene.glb");
+    writeExr(folder / "other.exr", makeEnvironment(64, 32, [](const glm::dvec3& d) { return d * d; }));
+    writeText(folder / "sky.avi", "ffconcat version 1.0\nfile other.exr\nduration 1\n");
 }
 
 // An OpenEXR header (openexr.com, "File Layout") of a picture of 2^31 by 2^31.
@@ -189,6 +205,14 @@ std::vector<Hostile> hostiles() {
         {"image_of_2_gigabytes", image(lyingPng(16384, 16)), {"scene.glb", "images[0]"}},
         {"image_shorter_than_it_says", image(lyingPng(4096, 8)), {"scene.glb", "images[0]"}},
         {"sky_cut_off", cutSky, {"sky.exr"}, sky},
+        {"sky_of_jpeg_that_lies",
+         lyingJpegSky,
+         {"sky.jpg", "cannot hold 5400 x 2700 texels"},
+         {"--env", "@/sky.jpg"}},
+        {"sky_that_names_another",
+         listedSky,
+         {"sky.avi", "not an image of a known format"},
+         {"--env", "@/sky.avi"}},
         {"sky_without_end", beside("sky.exr", endlessExr()), {"sky.exr"}, sky},
         {"sky_of_zeros", beside("sky.exr", std::string(1 << 20, '\0')), {"sky.exr"}, sky},
         {"sky_that_lies",

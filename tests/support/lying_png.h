@@ -1,4 +1,4 @@
-// PNG files that claim more than they hold.
+// PNG and JPEG files that claim more than they hold.
 #pragma once
 
 #include <cstdint>
@@ -11,5 +11,9 @@ std::string pngChunk(const std::string& typeAndData);
 
 // RGBA of side × side texels of so many bits; its data, one compressed pixel, ends long before it should.
 std::string lyingPng(std::uint32_t side, char bits);
+
+// A baseline JPEG with another size in its header (ITU-T T.81, B.2.2). Throws std::runtime_error when it has
+// none.
+std::string lyingJpeg(std::string file, std::uint16_t width, std::uint16_t height);
 
 }  // namespace cutis::test

@@ -70,7 +70,7 @@ std::vector<std::byte> smallPng() {
 }
 
 void expectWorks(const std::vector<std::byte>& png) {
-    const CodecResult result = decodeImageMemory(png, "png", kLimits);
+    const CodecResult result = decodeImageMemory(png, kLimits);
     EXPECT_EQ(result.why, "");
     EXPECT_EQ(result.layout.width, 2);
     EXPECT_EQ(result.data.bytes().size(), result.layout.bytes());
@@ -148,7 +148,7 @@ TEST(Codec, ADecoderThatSpinsIsEndedWithinFiveSeconds) {
         const BadDecoder bad("spin");
         const std::string file = test::lyingPng(16384, 8);
         auto refused = std::async(std::launch::async, [&] {
-            return decodeImageMemory(std::as_bytes(std::span(file)), "png", kLimits);
+            return decodeImageMemory(std::as_bytes(std::span(file)), kLimits);
         });
         const std::vector<pid_t> workers = awaitWorkers(true);
         ASSERT_EQ(workers.size(), 1u);
@@ -168,7 +168,7 @@ TEST(Codec, ADecoderThatCrashesIsRefused) {
     const std::vector<std::byte> png = smallPng();
     {
         const BadDecoder bad("crash");
-        const CodecResult result = decodeImageMemory(png, "png", kLimits);
+        const CodecResult result = decodeImageMemory(png, kLimits);
         EXPECT_EQ(result.why, "its decoder crashed (Segmentation fault)");
     }
     expectWorks(png);
@@ -181,9 +181,9 @@ TEST(Codec, OneThatCannotStartIsSaidAndLeavesNothingOpen) {
     };
     {
         const BadDecoder bad("end");
-        EXPECT_EQ(decodeImageMemory(png, "png", kLimits).why, "the image codec has gone");
+        EXPECT_EQ(decodeImageMemory(png, kLimits).why, "the image codec has gone");
         const auto before = open();
-        for (int i = 0; i < 10; ++i) EXPECT_NE(decodeImageMemory(png, "png", kLimits).why, "");
+        for (int i = 0; i < 10; ++i) EXPECT_NE(decodeImageMemory(png, kLimits).why, "");
         EXPECT_EQ(open(), before);
     }
     expectWorks(png);
@@ -216,11 +216,11 @@ TEST(Codec, ManyThreadsAtOnce) {
 
 TEST(Codec, LimitsHoldBeforeAnythingIsDecoded) {
     const std::vector<std::byte> png = smallPng();
-    EXPECT_NE(decodeImageMemory(png, "png", {1, 2, 4, 1 << 20}).why, "");
-    EXPECT_NE(decodeImageMemory(png, "png", {2, 2, 4, 11}).why, "");
-    EXPECT_EQ(decodeImageMemory(png, "png", {2, 2, 4, 16}).why, "");
-    EXPECT_NE(decodeImageMemory(png, "no such format", kLimits).why, "");
-    EXPECT_THROW(decodeImageMemory(png, std::string(100, 'x'), kLimits), Error);
+    EXPECT_NE(decodeImageMemory(png, {1, 2, 4, 1 << 20}).why, "");
+    EXPECT_NE(decodeImageMemory(png, {2, 2, 4, 11}).why, "");
+    EXPECT_EQ(decodeImageMemory(png, {2, 2, 4, 16}).why, "");
+    EXPECT_NE(encodeImage("no such format", {1, 1, 1}, std::span(png).first(1)).why, "");
+    EXPECT_THROW(encodeImage(std::string(100, 'x'), {1, 1, 1}, std::span(png).first(1)), Error);
 }
 
 }  // namespace

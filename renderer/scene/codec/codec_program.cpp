@@ -81,8 +81,7 @@ void answer(const Parcel<Request>& parcel) {
     std::string why;
     switch (request.operation) {
         case Operation::decodeMemory:
-            why = decodeMemory(given.bytes(), request.format.data(), request.limits, message.layout, allocate,
-                               progress);
+            why = decodeMemory(given.bytes(), request.limits, message.layout, allocate, progress);
             break;
         case Operation::decodeFile:
             why = decodeFile(request.path.data(), request.limits, message.layout, allocate, progress);
@@ -178,10 +177,21 @@ class Server {
     std::map<pid_t, int> replies_;  // sockets of the processes at work
 };
 
+// Signals end this process and those that it starts, and so tell what became of them, whatever whoever
+// started cutis made of them, or a sanitizer that a library brings along.
+void resetSignals() {
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGXCPU})
+        std::signal(signal, SIG_DFL);
+    sigset_t none;
+    sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
 }  // namespace
 }  // namespace cutis::codec
 
 int main() {
+    cutis::codec::resetSignals();
     // An interrupt of the terminal is for cutis to answer.
     std::signal(SIGINT, SIG_IGN);
     // What libraries print about a damaged file, cutis says in its own words.

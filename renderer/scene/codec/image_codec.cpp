@@ -2,9 +2,17 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <memory>
+
+#include "renderer/scene/codec/image_file.h"
 
 namespace cutis::codec {
 namespace {
@@ -67,6 +75,40 @@ std::string readPixels(OIIO::ImageInput& input, const PixelLimits& limits, Pixel
     return orUnknown(input.geterror());
 }
 
+// The bytes of a file on disk. Where another program cuts the file off meanwhile, reading them is a bus
+// error, which ends this process alone.
+class MappedFile {
+  public:
+    explicit MappedFile(const std::string& path) {
+        const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        struct stat status {};
+        if (descriptor < 0 || ::fstat(descriptor, &status) != 0) {
+            why_ = std::strerror(errno);
+        } else if (status.st_size > 0) {
+            const auto size = static_cast<std::size_t>(status.st_size);
+            void* mapped = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+            if (mapped == MAP_FAILED) {
+                why_ = std::strerror(errno);
+            } else {
+                bytes_ = {static_cast<const std::byte*>(mapped), size};
+            }
+        }
+        if (descriptor >= 0) ::close(descriptor);
+    }
+    ~MappedFile() {
+        if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+    }
+    MappedFile(const MappedFile&) = delete;
+    MappedFile& operator=(const MappedFile&) = delete;
+
+    std::span<const std::byte> bytes() const { return bytes_; }
+    const std::string& why() const { return why_; }  // it cannot be read; empty when it can
+
+  private:
+    std::span<const std::byte> bytes_;
+    std::string why_;
+};
+
 // The exceptions of OpenImageIO and of the libraries below it end here.
 template <typename Work>
 std::string guarded(const Work& work) {
@@ -97,10 +139,12 @@ void limitThreads(int threads) {
     OIIO::attribute("exr_threads", threads);
 }
 
-std::string decodeMemory(std::span<const std::byte> file, const std::string& format,
-                         const PixelLimits& limits, PixelLayout& pixels, const Allocate& allocate,
-                         const Progress& progress) {
+std::string decodeMemory(std::span<const std::byte> file, const PixelLimits& limits, PixelLayout& pixels,
+                         const Allocate& allocate, const Progress& progress) {
     return guarded([&]() -> std::string {
+        const std::string format = imageFormat(file);
+        if (format.empty()) return "not an image of a known format";
+        if (const std::string damage = findDamage(file, format); !damage.empty()) return damage;
         OIIO::Filesystem::IOMemReader reader(const_cast<std::byte*>(file.data()), file.size());
         // ImageInput::open would look for a file of that name on disk.
         const auto input = OIIO::ImageInput::create(format);
@@ -115,11 +159,9 @@ std::string decodeMemory(std::span<const std::byte> file, const std::string& for
 
 std::string decodeFile(const std::string& path, const PixelLimits& limits, PixelLayout& pixels,
                        const Allocate& allocate, const Progress& progress) {
-    return guarded([&]() -> std::string {
-        const OIIO::ImageSpec config = straightAlpha();
-        const auto input = OIIO::ImageInput::open(path, &config);
-        return input ? readPixels(*input, limits, pixels, allocate, progress) : orUnknown(OIIO::geterror());
-    });
+    const MappedFile file(path);
+    if (!file.why().empty()) return file.why();
+    return decodeMemory(file.bytes(), limits, pixels, allocate, progress);
 }
 
 std::string encode(const std::string& format, const PixelLayout& pixels, std::span<const std::byte> samples,

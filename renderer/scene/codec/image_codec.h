@@ -37,12 +37,14 @@ using Progress = std::function<void(std::uint64_t decoded)>;
 // what the process may have. Before anything else here.
 void limitThreads(int threads);
 
-// Each returns why it failed, or nothing; none throws. `format` is an OpenImageIO format name ("png").
-std::string decodeMemory(std::span<const std::byte> file, const std::string& format, const PixelLimits&,
-                         PixelLayout&, const Allocate&, const Progress&);
+// Each returns why it failed, or nothing; none throws. The reader of a file is chosen by its content, among
+// those of image_file.h: its name may be wrong, and OpenImageIO has readers of films and playlists, which
+// open other files.
+std::string decodeMemory(std::span<const std::byte> file, const PixelLimits&, PixelLayout&, const Allocate&,
+                         const Progress&);
 std::string decodeFile(const std::string& path, const PixelLimits&, PixelLayout&, const Allocate&,
                        const Progress&);
-// Writes to `path`, whatever its name.
+// Writes to `path`, whatever its name; `format` is an OpenImageIO format name ("png").
 std::string encode(const std::string& format, const PixelLayout&, std::span<const std::byte> samples,
                    const std::string& path);
 

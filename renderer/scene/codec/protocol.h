@@ -19,7 +19,7 @@ struct Request {
     std::uint64_t dataBytes = 0;    // beside the message
     std::uint64_t memoryBytes = 0;  // that the work may take
     std::uint32_t seconds = 0;      // of processor time that it may take
-    std::array<char, 16> format{};  // of decodeMemory and encode, as OpenImageIO names it
+    std::array<char, 16> format{};  // of encode, as OpenImageIO names it
     std::array<char, 4096> path{};  // of decodeFile
 };
 
