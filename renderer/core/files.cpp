@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
@@ -180,7 +181,7 @@ void writeCache(const std::string& kind, std::uint64_t key, std::span<const std:
     const CacheHeader header{kCacheMagic, key, payload.size(), hashBytes(payload)};
     std::vector<std::byte> bytes(sizeof header + payload.size());
     std::memcpy(bytes.data(), &header, sizeof header);
-    std::memcpy(bytes.data() + sizeof header, payload.data(), payload.size());
+    std::copy(payload.begin(), payload.end(), bytes.begin() + sizeof header);
     char name[32];
     std::snprintf(name, sizeof name, "-%016llx.bin", static_cast<unsigned long long>(key));
     try {

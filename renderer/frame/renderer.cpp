@@ -119,6 +119,7 @@ void Renderer::State::readGeometry() {
         expectWithinReach(*frame.device, frame.geometry);
         const AtRest atRest(frame.geometry);
         frame.skinMesh = makeSkinMesh(frame.geometry);
+        frame.atlas = {};  // its charts name materials that need not be skin any more
         frame.detail = {};
         geometry = key;
     } else if (poseRevision != input.poseRevision) {

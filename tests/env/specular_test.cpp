@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "renderer/core/parallel.h"
 #include "renderer/scene/environment_clusters.h"
 #include "tests/env/environments.h"
 #include "tests/env/gpu_lookup.h"
@@ -41,17 +40,11 @@ std::vector<dvec3> reflectTexels(const std::vector<Texel>& texels, const std::ve
                                  double m) {
     const dvec3 view(0, 0, 1);
     const double leastCos2 = 1 / (1 + 40 * m * m);
-    std::vector<dvec3> sums(normals.size(), dvec3(0));
-    parallelFor(normals.size(), [&](std::size_t i) {
-        const dvec3 n = normals[i];
-        for (const Texel& texel : texels) {
-            const double cosine = glm::dot(n, texel.direction),
-                         along = cosine + n.z;  // N·h, |h|² = 2 (1 + V·L)
-            if (cosine > 0 && along * along > leastCos2 * 2 * (1 + texel.direction.z))
-                sums[i] += texel.flux * (cosine * skin::kelemenSpecular(n, view, texel.direction, m));
-        }
+    return sumShares(texels, normals, [&](const dvec3& n, const Texel& texel) {
+        const double cosine = glm::dot(n, texel.direction), along = cosine + n.z;  // N·h, |h|² = 2 (1 + V·L)
+        if (cosine <= 0 || along * along <= leastCos2 * 2 * (1 + texel.direction.z)) return dvec3(0);
+        return texel.flux * (cosine * skin::kelemenSpecular(n, view, texel.direction, m));
     });
-    return sums;
 }
 
 double relativeL2(const std::vector<glm::vec3>& found, const std::vector<dvec3>& exact) {

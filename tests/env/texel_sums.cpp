@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderer/core/parallel.h"
 #include "renderer/scene/environment_clusters.h"
 
 namespace cutis::test {
@@ -40,15 +39,11 @@ std::vector<glm::dvec3> sumTexels(const Environment& environment, std::span<cons
     constexpr int kTable = 1 << 16;
     std::vector<double> table(kTable + 2);
     for (int i = 0; i < kTable + 2; ++i) table[i] = weight(2.0 * i / kTable - 1);
-    std::vector<glm::dvec3> sums(normals.size(), glm::dvec3(0));
-    parallelFor(normals.size(), [&](std::size_t k) {
-        for (const Texel& texel : texels) {
-            const double x = (glm::dot(normals[k], texel.direction) + 1) * (kTable / 2);
-            const int i = int(x);
-            sums[k] += texel.flux * (table[i] + (table[i + 1] - table[i]) * (x - i));
-        }
+    return sumShares(texels, normals, [&](const glm::dvec3& normal, const Texel& texel) {
+        const double x = (glm::dot(normal, texel.direction) + 1) * (kTable / 2);
+        const int i = int(x);
+        return texel.flux * (table[i] + (table[i + 1] - table[i]) * (x - i));
     });
-    return sums;
 }
 
 }  // namespace cutis::test
