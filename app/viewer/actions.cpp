@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <new>
 #include <utility>
 
 #include "app/inputs.h"
@@ -36,19 +37,26 @@ bool attempt(Session& session, const Function& function) {
         return true;
     } catch (const Error& error) {
         session.complain(error.what());
+    } catch (const std::bad_alloc&) {
+        session.complain("out of memory: the file is too large for this machine");
     }
     return false;
 }
 
-// One at a time: what was begun before is waited for.
-void startTask(Session& session, std::function<std::function<void(Session&)>()> work) {
-    if (session.task.valid()) session.task.wait();
-    continueTask(session);
-    session.task = std::async(std::launch::async, [work = std::move(work)] {
+void startNextTask(Session& session) {
+    if (session.task.valid() || session.nextTasks.empty()) return;
+    session.task = std::async(std::launch::async, [work = std::move(session.nextTasks.front())] {
         std::function<void(Session&)> end = work();
         Window::wake();
         return end;
     });
+    session.nextTasks.pop_front();
+}
+
+// The interface waits for none: what was begun before comes first.
+void startTask(Session& session, std::function<std::function<void(Session&)>()> work) {
+    session.nextTasks.push_back(std::move(work));
+    startNextTask(session);
 }
 
 // A rig from a file with its environment's name made absolute.
@@ -70,14 +78,13 @@ void openFile(Session& session, const fs::path& file) {
     openEnvironment(session, file);
 }
 
-namespace {
-
-// At once when the rig is saved; else its fate is asked first.
 void whenSaved(Session& session, std::function<void(Session&)> act) {
     if (!session.edits.unsaved() && !session.skinUnsaved()) return act(session);
     session.afterSaving = std::move(act);
     showDialog(session, Dialog::unsaved);
 }
+
+namespace {
 
 void startOpening(Session& session, const std::string& scene) {
     Request request;
@@ -159,7 +166,7 @@ void openEnvironment(Session& session, const fs::path& file) {
 void takeSun(Session& session) {
     const EnvironmentSettings& settings = session.document().rig.environment;
     if (settings.file.empty() || settings.sunRemoved) return;
-    session.say("Looks for the sun ...");
+    session.announce("Looks for the sun ...");
     startTask(session, [settings]() -> std::function<void(Session&)> {
         const std::optional<EnvironmentSun> sun = findSun(loadEnvironment(settings.file, false));
         if (!sun) return [](Session& s) { s.say("Nothing stands out in this environment like a sun"); };
@@ -179,6 +186,7 @@ void continueTask(Session& session) {
     using namespace std::chrono_literals;
     if (!session.task.valid() || session.task.wait_for(0s) != std::future_status::ready) return;
     attempt(session, [&] { session.task.get()(session); });
+    startNextTask(session);
 }
 
 bool saveRig(Session& session) {
@@ -235,7 +243,17 @@ void saveNext(Session& session) {
 }
 
 void quit(Session& session) {
-    whenSaved(session, [](Session& s) { s.quit = true; });
+    whenSaved(session, [](Session& s) {
+        s.quit = !s.saves() || s.quitsWhenSaved == s.edits.version();
+        if (s.quit) return;
+        s.quitsWhenSaved = s.edits.version();
+        s.announce("Ends when the picture is saved; quit once more to end at once, without it");
+    });
+}
+
+void continueQuitting(Session& session) {
+    if (!session.quitsWhenSaved || session.saves()) return;
+    session.quit = *std::exchange(session.quitsWhenSaved, std::nullopt) == session.edits.version();
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "app/viewer/session.h"
@@ -44,8 +45,11 @@ void takeAovs(Session& session, AsideResult result);
 std::string commandLine(Session& session);
 void copyCommandLine(Session& session);
 
-// At once when the rig is saved, else asks.
+// Does it at once when rig and skin are saved; else what becomes of them is asked first.
+void whenSaved(Session& session, std::function<void(Session&)> act);
+// When all is saved, a picture on its way to disk too; asked for again, without that picture.
 void quit(Session& session);
+void continueQuitting(Session& session);
 void undo(Session& session);
 void redo(Session& session);
 void showDialog(Session& session, Dialog dialog, const std::string& path = "");

@@ -12,9 +12,11 @@ void autosave(const Session& session);
 // All is saved, or was given up.
 void discardAutosave();
 
-// At the start: puts aside what the last run left, so that this one does not write over it. True when there
-// is something to recover.
+// At the start: puts aside what earlier runs left, so that this one does not write over it; other programs that
+// run at the same time keep theirs. True when there is something to recover.
 bool keepAutosave();
+// The same later: a program that was killed may take its time to end. True when there is something to recover.
+bool findLeftBehind();
 // Takes it into the document, as one edit each. Skin of another scene stays where it is until that is open;
 // so does what cannot be read. The session says what came of it.
 void recoverUnsaved(Session& session);

@@ -23,6 +23,7 @@ void requestPicture(Session& session, std::size_t slot) {
 }
 
 void showDifference(Session& session) {
+    session.mapShown = session.differenceMap;
     if (!session.figures || session.figures->map.values.empty()) return;
     const bool relative = session.differenceMap == DifferenceMap::relative;
     session.uploads.emplace_back(kDifferencePicture, relative
@@ -123,21 +124,21 @@ std::shared_ptr<const Picture> comparedWith(const Session& session) {
     return session.complete() ? session.picture->linear : nullptr;
 }
 
+bool figuresAreOfNow(const Session& session) {
+    const std::shared_ptr<const Picture> a = session.compared[0].linear, b = comparedWith(session);
+    return a && b && session.figures && session.figures->a == a.get() && session.figures->b == b.get();
+}
+
 void updateDifference(Session& session) {
     using namespace std::chrono_literals;
-    static DifferenceMap shown = DifferenceMap::relative;
     if (session.comparing.valid()) {
         if (session.comparing.wait_for(0s) != std::future_status::ready) return;
         session.figures = session.comparing.get();
         showDifference(session);
     }
-    if (shown != session.differenceMap) {
-        shown = session.differenceMap;
-        showDifference(session);
-    }
+    if (session.mapShown != session.differenceMap) showDifference(session);
     const std::shared_ptr<const Picture> a = session.compared[0].linear, b = comparedWith(session);
-    if (session.compareMode != CompareMode::difference || !a || !b) return;
-    if (session.figures && session.figures->a == a.get() && session.figures->b == b.get()) return;
+    if (session.compareMode != CompareMode::difference || !a || !b || figuresAreOfNow(session)) return;
     session.comparing =
         std::async(std::launch::async, compare, a, b, session.compared[0].document.rig.exposure,
                    otherDocument(session).rig.exposure);
@@ -147,7 +148,7 @@ void saveComparison(Session& session, const std::filesystem::path& folder) {
     if (!session.compared[0].stored)
         return session.complain("Store a state as A first: it is what is compared");
     session.savingComparison = std::filesystem::absolute(folder).lexically_normal();
-    session.say("Saves the comparison when both of its pictures are there");
+    session.announce("Saves the comparison when both of its pictures are there");
     continueComparison(session);
 }
 

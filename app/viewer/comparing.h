@@ -21,6 +21,8 @@ void renewStates(Session& session);
 
 // A picture of a stored state has come.
 void takeStatePicture(Session& session, AsideResult result);
+// The figures are of the two pictures that are compared now.
+bool figuresAreOfNow(const Session& session);
 // While the difference is shown: computes it, in the background, when what is compared has changed.
 void updateDifference(Session& session);
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "renderer/scene/characters.h"
+#include "renderer/scene/fields.h"
 
 namespace cutis::app {
 namespace {
@@ -190,6 +191,12 @@ void changeType(Light& light, LightType type, double distance) {
     light.outerConeAngle = spot ? 0.6 : Light{}.outerConeAngle;
     light.type = type;
     light.intensity = irradiance * intensityForUnitIrradiance(light, type, distance);
+}
+
+void brighten(Light& light, double stops) {
+    // A file may have given it more than panels do.
+    const double most = std::max(light.intensity, fields::kIntensity.high);
+    light.intensity = std::min(light.intensity * std::exp2(stops), most);
 }
 
 void turnLight(Light& light, double azimuth, double elevation, const glm::dvec3& pivot) {

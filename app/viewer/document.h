@@ -95,6 +95,9 @@ std::string uniqueLightName(const Rig& rig, const std::string& name);
 // away.
 void changeType(Light& light, LightType type, double distance);
 
+// By so many stops, but not beyond what the field of intensity covers.
+void brighten(Light& light, double stops);
+
 // Turns the light round `pivot` (world): by the angles of its place, or its position and direction together
 // when it stands free. Degrees.
 void turnLight(Light& light, double azimuth, double elevation, const glm::dvec3& pivot);

@@ -2,8 +2,6 @@
 
 #include <GLFW/glfw3.h>
 
-#include <cmath>
-
 #include "app/viewer/actions.h"
 #include "app/viewer/comparing.h"
 
@@ -23,7 +21,7 @@ void selectLight(Session& session, int step) {
 }
 
 void changeStops(Session& session, double stops) {
-    editLight(session, "Intensity", [&](Light& light) { light.intensity *= std::exp2(stops); });
+    editLight(session, "Intensity", [&](Light& light) { brighten(light, stops); });
 }
 
 void frame(Session& session, Framing framing) {
@@ -48,8 +46,8 @@ constexpr int kCtrl = GLFW_MOD_CONTROL, kShift = GLFW_MOD_SHIFT;
 
 constexpr HotKey kHotKeys[] = {
     {GLFW_KEY_F1, 0, "F1", "This help", [](Session& s) { s.showHelp = !s.showHelp; }},
-    {GLFW_KEY_Z, kCtrl, "Ctrl+Z", "Undo", undo},
-    {GLFW_KEY_Z, kCtrl | kShift, "Ctrl+Shift+Z", "Redo", redo},
+    {GLFW_KEY_Z, kCtrl, "Ctrl+Z", "Undo", undo, true},
+    {GLFW_KEY_Z, kCtrl | kShift, "Ctrl+Shift+Z", "Redo", redo, true},
     {GLFW_KEY_S, kCtrl, "Ctrl+S", "Save the rig", [](Session& s) { saveRig(s); }},
     {GLFW_KEY_S, kCtrl | kShift, "Ctrl+Shift+S", "Save the rig as",
      [](Session& s) { showDialog(s, Dialog::saveRig, s.document().rigFile.string()); }},
@@ -64,12 +62,13 @@ constexpr HotKey kHotKeys[] = {
     {GLFW_KEY_S, 0, "S", "Solo the chosen light", toggleSolo},
     {GLFW_KEY_M, 0, "M", "Mute the chosen light",
      [](Session& s) { editLight(s, "Mute", [](Light& light) { light.enabled = !light.enabled; }); }},
-    {GLFW_KEY_UP, 0, "Up", "Choose the light above", [](Session& s) { selectLight(s, -1); }},
-    {GLFW_KEY_DOWN, 0, "Down", "Choose the light below", [](Session& s) { selectLight(s, 1); }},
+    {GLFW_KEY_UP, 0, "Up", "Choose the light above", [](Session& s) { selectLight(s, -1); }, true},
+    {GLFW_KEY_DOWN, 0, "Down", "Choose the light below", [](Session& s) { selectLight(s, 1); }, true},
     {GLFW_KEY_D, kCtrl, "Ctrl+D", "Duplicate the chosen light", duplicate},
     {GLFW_KEY_RIGHT_BRACKET, 0, "]", "A third of a stop brighter",
-     [](Session& s) { changeStops(s, 1 / 3.0); }},
-    {GLFW_KEY_LEFT_BRACKET, 0, "[", "A third of a stop darker", [](Session& s) { changeStops(s, -1 / 3.0); }},
+     [](Session& s) { changeStops(s, 1 / 3.0); }, true},
+    {GLFW_KEY_LEFT_BRACKET, 0, "[", "A third of a stop darker", [](Session& s) { changeStops(s, -1 / 3.0); },
+     true},
     {GLFW_KEY_1, 0, "1", "Frame the face", [](Session& s) { frame(s, Framing::face); }},
     {GLFW_KEY_2, 0, "2", "Frame head and shoulders", [](Session& s) { frame(s, Framing::bust); }},
     {GLFW_KEY_3, 0, "3", "Frame the whole figure", [](Session& s) { frame(s, Framing::full); }},
@@ -81,8 +80,8 @@ constexpr HotKey kHotKeys[] = {
      [](Session& s) { toggleCompare(s, CompareMode::difference); }},
     {GLFW_KEY_X, 0, "X", "Light mixer", [](Session& s) { s.mixer.shown = !s.mixer.shown; }},
     {GLFW_KEY_SPACE, 0, "Space", "Play or pause the animation", [](Session& s) { s.playback.toggle(); }},
-    {GLFW_KEY_RIGHT, 0, "Right", "The next frame", [](Session& s) { s.playback.step(1); }},
-    {GLFW_KEY_LEFT, 0, "Left", "The frame before", [](Session& s) { s.playback.step(-1); }},
+    {GLFW_KEY_RIGHT, 0, "Right", "The next frame", [](Session& s) { s.playback.step(1); }, true},
+    {GLFW_KEY_LEFT, 0, "Left", "The frame before", [](Session& s) { s.playback.step(-1); }, true},
     {GLFW_KEY_HOME, 0, "Home", "To where the animation begins", [](Session& s) { s.playback.seek(0); }},
     {GLFW_KEY_T, 0, "T", "Time line", [](Session& s) { s.showTimeLine = !s.showTimeLine; }},
     {GLFW_KEY_L, 0, "L", "Place the chosen light by dragging",
@@ -105,7 +104,7 @@ void runHotKey(Session& session, const KeyPress& press, bool typing) {
     // In a text field, undo and redo are the field's own.
     if (typing && press.key == GLFW_KEY_Z) return;
     for (const HotKey& row : kHotKeys)
-        if (row.key == press.key && row.modifiers == modifiers) {
+        if (row.key == press.key && row.modifiers == modifiers && (row.repeats || !press.again)) {
             session.edits.endGesture();
             row.run(session);
             session.edits.endGesture();

@@ -12,6 +12,7 @@ struct HotKey {
     const char* keys;     // "Ctrl+S"
     const char* meaning;  // "Save the rig"
     void (*run)(Session& session);
+    bool repeats = false;  // also while it is held: a step. What turns something on or off does not
 };
 
 std::span<const HotKey> hotKeys();

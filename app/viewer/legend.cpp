@@ -17,8 +17,9 @@ Scale scaleOf(const Session& session) {
         const bool relative = session.differenceMap == DifferenceMap::relative;
         return session.figures ? Scale{"0", relative ? kWholeDifferenceText : kWholeFlipText} : Scale{};
     }
+    const Shown shown = session.picture ? session.picture->overlay : Shown{};
     for (const Overlay& overlay : overlays())
-        if (overlay.aov == session.overlay.aov && overlay.inspect == session.overlay.inspect.what)
+        if (overlay.aov == shown.aov && overlay.inspect == shown.inspect.what)
             return {overlay.black, overlay.white};
     return {};
 }

@@ -81,6 +81,13 @@ void addBeam(const Session& session, const Camera& camera, std::vector<LightHand
     handles.push_back({session.selectedLight, Part::aim, aim, aim, false});
 }
 
+// Dark all round: what lies behind may be as light as the text.
+void outlinedText(ImDrawList& draw, const ImVec2& at, ImU32 color, const char* text) {
+    for (const auto& [x, y] : {std::pair(1, 1), std::pair(-1, 1), std::pair(1, -1), std::pair(-1, -1)})
+        draw.AddText({at.x + float(x), at.y + float(y)}, IM_COL32(0, 0, 0, 130), text);
+    draw.AddText(at, color, text);
+}
+
 // Each light's dot with its name.
 void drawDots(const Session& session, const std::vector<LightHandle>& handles, int hovered) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
@@ -115,8 +122,7 @@ void drawDots(const Session& session, const std::vector<LightHandle>& handles, i
                 text.y + size.y > other.y)
                 text.y = other.w;
         taken.emplace_back(text.x, text.y, text.x + size.x, text.y + size.y);
-        draw.AddText({text.x + 1, text.y + 1}, IM_COL32(0, 0, 0, 180), name.c_str());
-        draw.AddText(text, color, name.c_str());
+        outlinedText(draw, text, color, name.c_str());
     }
 }
 
@@ -153,7 +159,8 @@ void drawBeam(const Session& session, const Camera& camera, const std::vector<Li
             draw.AddRectFilled({at.x - size, at.y - size}, {at.x + size, at.y + size}, color);
         }
         if (active)
-            draw.AddText({at.x + 2 * size, at.y + size}, color, handle.part == Part::aim ? "aim" : "cone");
+            outlinedText(draw, {at.x + 2 * size, at.y + size}, color,
+                         handle.part == Part::aim ? "aim" : "cone");
     }
 }
 

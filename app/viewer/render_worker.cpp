@@ -3,82 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
 #include "app/viewer/document.h"
-#include "app/viewer/overlay.h"
 #include "renderer/scene/environment.h"
 #include "renderer/scene/environment_sun.h"
-#include "renderer/scene/light_samples.h"
 
 namespace cutis::app {
-namespace {
-
-bool sameCamera(const Camera& a, const Camera& b) {
-    return a.world == b.world && a.yfov == b.yfov && a.orthographic == b.orthographic && a.xmag == b.xmag &&
-           a.ymag == b.ymag && a.aspect == b.aspect;
-}
-
-bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
-    return a.width == b.width && a.height == b.height && a.irradianceSize == b.irradianceSize &&
-           a.gaussians == b.gaussians && a.lightMapSize == b.lightMapSize && a.merge == b.merge &&
-           a.chain == b.chain && a.taps == b.taps;
-}
-
-// All that lights the scene: what is left is the camera, the exposure and what is shown.
-bool sameLight(const RenderState& a, const RenderState& b) {
-    Rig rig = a.rig;
-    rig.exposure = b.rig.exposure;
-    return a.scene == b.scene && a.skin == b.skin && a.pose == b.pose && rig == b.rig &&
-           sameSettings(a.settings, b.settings);
-}
-
-// Turned by so little that samples fall elsewhere within a third of a pixel, which is how far apart they are:
-// the points of a Halton sequence in bases 2 and 3.
-Camera jittered(Camera camera, int index, int height) {
-    const auto radicalInverse = [](int i, int base) {
-        double value = 0, digit = 1;
-        for (; i > 0; i /= base) value += (digit /= base) * (i % base);
-        return value;
-    };
-    const double pixels = 1.0 / 3;
-    const double dx = pixels * (radicalInverse(index, 2) - 0.5),
-                 dy = pixels * (radicalInverse(index, 3) - 0.5);
-    if (camera.orthographic) {
-        const double metres = 2 * camera.ymag / height;
-        camera.world = camera.world * glm::translate(glm::dmat4(1), glm::dvec3(dx * metres, dy * metres, 0));
-        return camera;
-    }
-    const double angle = 2 * std::tan(camera.yfov / 2) / height;
-    camera.world = glm::rotate(camera.world, dx * angle, glm::dvec3(0, 1, 0));
-    camera.world = glm::rotate(camera.world, dy * angle, glm::dvec3(1, 0, 0));
-    return camera;
-}
-
-// Light maps are most of what a light that moves costs.
-constexpr int kDraftLightMap = 256, kDraftSamples = 4;
-
-RenderSettings draftOf(RenderSettings settings) {
-    if (settings.lightMapSize == 0) settings.lightMapSize = kDraftLightMap;
-    return settings;
-}
-
-RenderState draftOf(RenderState state) {
-    for (Light& light : state.rig.lights)
-        if (sampleCount(light) > kDraftSamples) light.samples = kDraftSamples;
-    return state;
-}
-
-// Other samples of its lights would light it differently.
-bool hasSoftShadows(const RenderState& state) {
-    const EnvironmentSettings& environment = state.rig.environment;
-    return (environment.enabled && !environment.file.empty()) ||
-           std::any_of(state.rig.lights.begin(), state.rig.lights.end(),
-                       [](const Light& light) { return light.enabled && sampleCount(light) > 1; });
-}
-
-}  // namespace
 
 RenderWorker::RenderWorker(std::function<Renderers()> open, std::function<void()> wake)
     : open_(std::move(open)),
@@ -215,6 +146,7 @@ void RenderWorker::run() {
             if (aside) askAgain(std::move(*aside));
             aside.reset();
         } catch (const std::bad_alloc&) {
+            refinement_.reset();
             error = "out of memory: the scene or the picture is too large for this machine";
         } catch (const std::exception& problem) {
             error = problem.what();
@@ -224,7 +156,8 @@ void RenderWorker::run() {
         {
             const std::lock_guard lock(mutex_);
             status_.busy = status_.working = false;
-            if (job || !error.empty()) status_.error = error;
+            if (aside) status_.asideError = error;
+            if (job || (!aside && !error.empty())) status_.error = error;
             if (shadows_.busy()) status_.working = true;
             if (aside && !error.empty()) asideResults_.push_back({aside->id, nullptr, {}, {}});
         }
@@ -390,6 +323,7 @@ WorkerResult RenderWorker::render(const Job& job, double fraction, bool draft, S
     WorkerResult result;
     result.version = job.version;
     result.full = fraction == 1;
+    result.overlay = job.state.overlay;
     result.linear = std::make_shared<const Picture>(std::move(rendered.picture));
     result.composed = overBackground(job.state, result.linear);
     const auto overlay = rendered.aovs.find(job.state.overlay.aov);

@@ -15,31 +15,19 @@
 #include <vector>
 
 #include "app/viewer/display_picture.h"
-#include "app/viewer/overlay.h"
-#include "app/viewer/playback.h"
 #include "app/viewer/refinement.h"
+#include "app/viewer/render_state.h"
 #include "app/viewer/shadow_pictures.h"
 #include "renderer/frame/background.h"
 #include "renderer/frame/renderer.h"
 
 namespace cutis::app {
 
-// All that a picture depends on.
-struct RenderState {
-    std::shared_ptr<Scene> scene;  // with texels; the worker alone touches it once it has been handed over
-    std::vector<std::optional<SkinMaterial>> skin;  // per material, put into the scene before rendering
-    Pose pose;                                      // the scene is put into it before rendering
-    Rig rig;                                        // placements resolved, solo and mute applied
-    Camera camera;
-    RenderSettings settings;  // width and height of the full picture
-    Shown overlay;            // no AOV: the picture
-    Background background = Background::none;
-};
-
 // A picture on its way to the screen.
 struct WorkerResult {
     std::uint64_t version = 0;  // of the state that it shows
     bool full = false;          // at full resolution
+    Shown overlay;              // what `display` shows
     // Of a full picture: how many pictures, each seen from elsewhere within the pixels, and how many sets of
     // samples of lights and sky it is the mean of.
     int refined = 0, shadowSets = 0;
@@ -72,6 +60,7 @@ struct WorkerStatus {
     std::size_t aside = 0;      // pictures beside the view that are still to come
     std::string device;         // empty until the first picture
     std::string error;          // why the last state could not be rendered; empty: it could
+    std::string asideError;     // the same of the last picture beside the view
     int devicesLost = 0;        // and opened anew, since the start
 };
 

@@ -54,7 +54,7 @@ void savePicture(Session& session, const fs::path& file) {
         return;
     }
     session.saving = {fs::absolute(file), session.saveAovs, nullptr, 0};
-    session.say("Saves " + file.string() + " when the full picture is there");
+    session.announce("Saves " + file.string() + " when the full picture is there");
     continueSaving(session);
 }
 

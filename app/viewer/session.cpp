@@ -12,6 +12,9 @@
 namespace cutis::app {
 namespace {
 
+using namespace std::chrono_literals;
+constexpr auto kSaid = 10s, kComplained = 60s;  // how long messages stay
+
 // Luminance of what the light gives a surface at its subject's head that faces it.
 double irradianceAtHead(const Light& light, const Scene& scene, const glm::dvec3& everyone) {
     Rig alone;
@@ -38,10 +41,32 @@ Camera cameraOf(const Session& session, const Document& document) {
 
 }  // namespace
 
+void Session::say(const std::string& text) {
+    announce(text);
+    messageEnds = std::chrono::steady_clock::now() + kSaid;
+}
+
+void Session::announce(const std::string& text) {
+    message = text;
+    messageIsError = false;
+    messageEnds.reset();
+}
+
+// Whoever is about to leave should see it.
 void Session::complain(const std::string& text) {
     message = text;
     messageIsError = true;
+    messageEnds = std::chrono::steady_clock::now() + kComplained;
+    quitsWhenSaved.reset();
     std::fprintf(stderr, "cutis: %s\n", text.c_str());
+}
+
+void Session::takeBack(const std::string& text) {
+    if (message == text) announce("");
+}
+
+void Session::endMessage(std::chrono::steady_clock::time_point now) {
+    if (messageEnds && now >= *messageEnds) announce("");
 }
 
 bool MixerStrip::complete() const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -114,6 +115,7 @@ struct Session {
     DifferenceMap differenceMap = DifferenceMap::relative;
     std::optional<ComparedFigures> figures;
     std::future<ComparedFigures> comparing;
+    DifferenceMap mapShown = DifferenceMap::relative;  // that kDifferencePicture is
     double wipe = 0.5;  // of the picture's width
 
     MixerStrip mixer;
@@ -134,18 +136,23 @@ struct Session {
     std::function<void(Session&)> afterSaving;  // what waits for the rig to be saved, or given up; empty: nothing
     bool showHelp = false, showHandles = true, showPanels = true, showTimeLine = true;
 
-    std::string message;  // of the last action
+    std::string message;  // at the bottom of the window; see say()
     bool messageIsError = false;
+    std::optional<std::chrono::steady_clock::time_point> messageEnds;  // none: when something else is said
     SavedPicture saving;
     std::filesystem::path savingComparison;  // a folder, until both pictures are there; empty: none
     bool saveAovs = false;  // pictures are saved with their data channels
-    // Something that takes longer than a frame: what it gives is run on the session once it is there.
+    // Something that takes longer than a frame: what it gives is run on the session once it is there. Others
+    // come after it, one at a time.
     std::future<std::function<void(Session&)>> task;
+    std::deque<std::function<std::function<void(Session&)>()>> nextTasks;
     std::future<SaidOfSaving> writing;    // a picture or a comparison on its way to disk
     std::string clipboard;                // what to put there; empty: nothing
     std::optional<Request> opening;       // a scene to load
     bool recoverable = false;             // something was left unsaved last time
     bool reloadShaders = false;           // in the next frame
+    // Set to the edits' version: quits once nothing is on its way to disk, unless something is edited meanwhile.
+    std::optional<std::uint64_t> quitsWhenSaved;
     bool quit = false;
 
     const Document& document() const { return edits.document(); }
@@ -158,14 +165,27 @@ struct Session {
     }
     // Grows with whatever changes the picture of a view of this size, edits and poses.
     std::uint64_t shownVersion() const { return edits.version() + poses; }
-    // The full picture of what is shown is there.
-    bool complete() const { return picture && picture->full && picture->version == shownVersion(); }
+    // The full picture of the document, pose and size of the view as they are is there.
+    bool complete() const {
+        return picture && picture->full && picture->version == shownVersion() &&
+               picture->linear->width == view.width && picture->linear->height == view.height;
+    }
+    // A picture or a comparison is on its way to disk, or waits for being rendered.
+    bool saves() const {
+        return !saving.file.empty() || saving.picture || !savingComparison.empty() || writing.valid();
+    }
     const Light& light() const { return document().rig.lights[static_cast<std::size_t>(selectedLight)]; }
     double aspect() const { return view.height > 0 ? double(view.width) / view.height : 1.0; }
 
-    void say(const std::string& text) { message = text, messageIsError = false; }
-    // Also on stderr, for whoever started the program from a terminal.
+    // At the bottom of the window: what was done, for a while; what is under way, until something else is
+    // said; what went wrong, for longer, and on stderr for whoever started the program from a terminal.
+    void say(const std::string& text);
+    void announce(const std::string& text);
     void complain(const std::string& text);
+    // That is not so any more.
+    void takeBack(const std::string& text);
+    // Ends a message whose time is over.
+    void endMessage(std::chrono::steady_clock::time_point now);
 };
 
 // The camera that the document's view is, for the picture's aspect. The scene must be there.

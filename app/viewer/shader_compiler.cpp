@@ -131,6 +131,12 @@ CompiledShaders compileShaders(const fs::path& folder, std::span<const std::stri
     return result;
 }
 
+std::string changedSharedHeader(const fs::path& folder) {
+    for (const gpu::SharedHeader& header : gpu::sharedHeaders())
+        if (readSource(folder / header.name) != header.text) return std::string(header.name);
+    return "";
+}
+
 FileTimes shaderFiles(const fs::path& folder) {
     FileTimes times;
     std::error_code error;

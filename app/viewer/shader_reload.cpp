@@ -23,7 +23,14 @@ void ShaderReload::update(bool asked) {
     files_ = std::move(files);
     compiling_ = std::async(std::launch::async, [folder = folder_, wake = wake_] {
         const std::vector<std::string> names = gpu::embeddedShaderNames();
-        CompiledShaders compiled = compileShaders(folder, names);
+        CompiledShaders compiled;
+        const std::string changed = changedSharedHeader(folder);
+        if (changed.empty()) {
+            compiled = compileShaders(folder, names);
+        } else {
+            compiled.error =
+                changed + " is not what this program was built with: build cutis again and start it anew";
+        }
         wake();
         return compiled;
     });

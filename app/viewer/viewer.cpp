@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -14,15 +13,12 @@
 #include "app/viewer/comparing.h"
 #include "app/viewer/frame_times.h"
 #include "app/viewer/hot_keys.h"
-#include "app/viewer/legend.h"
+#include "app/viewer/interface.h"
 #include "app/viewer/mixing.h"
-#include "app/viewer/panels/panels.h"
 #include "app/viewer/scene_loader.h"
 #include "app/viewer/scene_poser.h"
 #include "app/viewer/shader_reload.h"
 #include "app/viewer/thumbnails.h"
-#include "app/viewer/view_input.h"
-#include "app/viewer/view_layout.h"
 #include "app/viewer/window.h"
 #include "renderer/core/error.h"
 #include "renderer/gpu/device.h"
@@ -37,10 +33,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kActive = 0.016, kWorking = 0.1, kIdle = 0.5;
 constexpr double kAutosavePeriod = 5;  // seconds
 constexpr double kMixPause = 0.8;      // seconds without an edit before what was mixed is rendered
-
-std::string titleOf(const std::string& scene) {
-    return "cutis - " + std::filesystem::path(scene).filename().string();
-}
 
 Renderers openRenderers(const std::string& select) {
     gpu::DeviceOptions options;
@@ -73,9 +65,7 @@ class Viewer {
         session_.uiScale = window_.uiScale();
         session_.uploads.emplace_back(kRoomPicture, DisplayPicture{1, 1, {9, 9, 10, 255}});
         session_.recent = loadRecentFiles();
-        session_.recoverable = keepAutosave();
-        if (session_.recoverable)
-            session_.say("What was not saved is kept: File, Recover unsaved brings it back");
+        offerRecovery(keepAutosave());
         startLoading(request);
     }
 
@@ -92,10 +82,10 @@ class Viewer {
         if (session_.writing.valid()) session_.writing.wait();
     }
 
-    // No picture is begun any more. One is under way: only its end can be waited for.
-    bool endsRendering() {
+    // No picture is begun any more. One is under way, or a scene: only its end can be waited for.
+    bool endsWork() {
         worker_.end();
-        return worker_.status().working;
+        return worker_.status().working || loader_.loading();
     }
 
   private:
@@ -132,6 +122,8 @@ class Viewer {
     }
 
     void startLoading(const Request& request) {
+        askedRig_ = session_.document().rig;
+        askedSkin_ = session_.document().skin;
         loader_.start(request, true);
     }
 
@@ -157,6 +149,7 @@ class Viewer {
 
     void takeNews() {
         while (std::optional<LoadedScene> loaded = loader_.take()) takeScene(std::move(*loaded));
+        askAboutEdits();
         session_.loading = loader_.loading() ? loader_.name() : "";
         session_.loadingSeconds = loader_.loading() ? loader_.seconds() : 0;
         takeWorkerStatus();
@@ -174,6 +167,7 @@ class Viewer {
         continueTask(session_);
         continueSaving(session_);
         continueComparison(session_);
+        continueQuitting(session_);
         for (const auto& [number, picture] : std::exchange(session_.uploads, {})) {
             window_.setPicture(number, picture);
             session_.pictures.insert(number);
@@ -185,6 +179,8 @@ class Viewer {
         const WorkerStatus before = std::exchange(session_.worker, worker_.status());
         const WorkerStatus& now = session_.worker;
         if (!now.error.empty() && now.error != before.error) session_.complain(now.error);
+        if (now.error.empty()) session_.takeBack(before.error);
+        if (!now.asideError.empty() && now.asideError != before.asideError) session_.complain(now.asideError);
         if (now.devicesLost > before.devicesLost && now.error.empty())
             session_.complain("The device was lost, and is opened anew");
     }
@@ -223,11 +219,27 @@ class Viewer {
     }
 
     void takeScene(LoadedScene loaded) {
+        const Document& document = session_.document();
         if (!loaded.error.empty()) {
             session_.complain(loaded.error);
             unavailable_ = loaded.name;
-            return;
+        } else if (loaded.opens && !document.scene.empty() &&
+                   (document.rig != askedRig_ || document.skin != askedSkin_)) {
+            asked_ = std::make_shared<LoadedScene>(std::move(loaded));
+        } else {
+            showScene(std::move(loaded));
         }
+    }
+
+    // What was edited while the scene was loading goes by it: that is asked first.
+    void askAboutEdits() {
+        if (asked_ && session_.dialog == Dialog::none)
+            whenSaved(session_, [this, loaded = std::exchange(asked_, nullptr)](Session&) {
+                showScene(std::move(*loaded));
+            });
+    }
+
+    void showScene(LoadedScene loaded) {
         unavailable_.clear();
         session_.geometry = loaded.geometry;
         session_.scene = loaded.scene;
@@ -255,6 +267,7 @@ class Viewer {
                                  [&](Document& document) { document = loaded.document; });
             session_.edits.endGesture();
             session_.edits.markSaved();
+            session_.say("Opened " + loaded.name);
         }
         window_.setTitle(titleOf(loaded.name));
     }
@@ -311,91 +324,10 @@ class Viewer {
     void drawFrame() {
         if (frames_ > 0) --frames_;
         updateDerived(session_);
-        session_.thumbnails.clear();
-        const ImGuiIO& io = ImGui::GetIO();
-        const float top = drawMenuBar(session_);
-        const float bottom = ImGui::GetFrameHeight() + 4 * static_cast<float>(session_.uiScale);
-        const Layout layout = layOut(session_, io.DisplaySize.x, io.DisplaySize.y, top, bottom);
-        if (session_.geometry) {
-            drawViewBar(session_, layout.bar);
-            if (layout.timeLine.height > 0) drawTimeLine(session_, layout.timeLine);
-            if (session_.mixer.shown) drawMixerStrip(session_, layout.mixer);
-            if (layout.side > 0) {
-                drawSide("##rig", 0, layout, [&] {
-                    drawRigTabs();
-                    if (!layout.both) drawLookTabs();
-                });
-                if (layout.both)
-                    drawSide("##look", io.DisplaySize.x - layout.side, layout, [this] { drawLookTabs(); });
-            }
-        }
-        drawStatusBar(session_, bottom);
-        drawHelp(session_);
-        drawDialogs(session_);
-        drawLegend(session_);
-        handleView(session_);
-        drawLoading();
-        const std::vector<PicturePart> parts = pictureParts(session_);
-        window_.endFrame(parts);
-        if (!ImGui::IsAnyItemActive() && !ImGui::IsAnyMouseDown() && io.MouseWheel == 0)
+        session_.endMessage(Clock::now());
+        window_.endFrame(drawInterface(session_, environmentThumbnails_));
+        if (!ImGui::IsAnyItemActive() && !ImGui::IsAnyMouseDown() && ImGui::GetIO().MouseWheel == 0)
             session_.edits.endGesture();
-    }
-
-    template <class Draw>
-    void drawSide(const char* name, float x, const Layout& layout, const Draw& draw) {
-        ImGui::SetNextWindowPos({x, layout.top});
-        ImGui::SetNextWindowSize({layout.side, ImGui::GetIO().DisplaySize.y - layout.top - layout.bottom});
-        ImGui::Begin(name, nullptr,
-                     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                         ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                         ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoBackground);
-        if (ImGui::BeginTabBar(name, ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip)) {
-            draw();
-            ImGui::EndTabBar();
-        }
-        ImGui::End();
-    }
-
-    template <class Draw>
-    static void drawTab(const char* name, const Draw& draw) {
-        if (!ImGui::BeginTabItem(name)) return;
-        ImGui::BeginChild(name);
-        draw();
-        ImGui::EndChild();
-        ImGui::EndTabItem();
-    }
-
-    void drawRigTabs() {
-        drawTab("Rig", [this] {
-            drawRigPanel(session_);
-            drawLightPanel(session_);
-        });
-        drawTab("Presets", [this] { drawPresetPanel(session_); });
-    }
-
-    void drawLookTabs() {
-        drawTab("View", [this] { drawCameraPanel(session_); });
-        drawTab("HDRI", [this] {
-            environmentThumbnails_.start();
-            drawEnvironmentPanel(session_);
-        });
-        drawTab("Skin", [this] { drawSkinPanel(session_); });
-        drawTab("Compare", [this] { drawComparePanel(session_); });
-        drawTab("Plan", [this] { drawPlanPanel(session_); });
-    }
-
-    void drawLoading() {
-        if (!loader_.loading()) return;
-        const ImVec2 display = ImGui::GetIO().DisplaySize;
-        const float scale = static_cast<float>(session_.uiScale);
-        ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-        ImGui::SetNextWindowSize({320 * scale, 0});
-        ImGui::Begin("##loading", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings);
-        ImGui::Text("Loading %s", titleOf(loader_.name()).substr(8).c_str());
-        // Nobody knows how long a scene takes: the bar nears its end and never gets there.
-        const double seconds = loader_.seconds();
-        ImGui::ProgressBar(static_cast<float>(seconds / (seconds + 2)), {-1, 6 * scale}, "");
-        ImGui::End();
     }
 
     // Hands the newest state to the worker when it is not what was handed over last.
@@ -433,9 +365,16 @@ class Viewer {
         worker_.show(key.version, std::move(state));
     }
 
+    void offerRecovery(bool possible) {
+        if (possible && !session_.recoverable)
+            session_.announce("What was not saved is kept: File, Recover unsaved brings it back");
+        session_.recoverable = possible;
+    }
+
     void saveNowAndThen() {
         if (Clock::now() - autosaved_ < std::chrono::duration<double>(kAutosavePeriod)) return;
         autosaved_ = Clock::now();
+        offerRecovery(findLeftBehind());
         if (session_.edits.version() == autosavedVersion_) return;
         autosavedVersion_ = session_.edits.version();
         autosave(session_);
@@ -455,6 +394,9 @@ class Viewer {
     Clock::time_point played_ = Clock::now();  // up to when the time line has gone on
     std::optional<Pose> refused_;              // a pose that the scene cannot take
     std::string unavailable_;                  // a scene that could not be loaded: not tried again by itself
+    Rig askedRig_;                             // as it was when the scene that is being loaded was asked for
+    std::vector<std::optional<SkinMaterial>> askedSkin_;
+    std::shared_ptr<LoadedScene> asked_;  // it is there, and waits for what becomes of edits made meanwhile
     std::optional<Key> shownKey_;
     int frames_ = 0;  // to draw without a pause: ImGui answers a key in the frame after
     Clock::time_point autosaved_ = Clock::now();
@@ -474,8 +416,9 @@ class Viewer {
 void runViewer(const Request& request) {
     Viewer viewer(request);
     viewer.run();
-    if (!viewer.endsRendering()) return;
-    // Nobody waits for a picture that nobody will see. All files are written; the system takes back the rest.
+    if (!viewer.endsWork()) return;
+    // Nobody waits for a picture or a scene that nobody will see. All files are written; the system takes
+    // back the rest.
     std::fflush(nullptr);
     std::quick_exit(gpu::validationMessages() ? 1 : 0);
 }

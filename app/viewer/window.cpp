@@ -70,8 +70,9 @@ Window::~Window() {
 void Window::openInterface() {
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
         if (action == GLFW_RELEASE) return;
-        windowOf(window).keys_.push_back({key, modifiers});
-        windowOf(window).unseenKeys_.push_back({key, modifiers});
+        const KeyPress press{key, modifiers, action == GLFW_REPEAT};
+        windowOf(window).keys_.push_back(press);
+        windowOf(window).unseenKeys_.push_back(press);
     });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
         for (int i = 0; i < count; ++i) windowOf(window).drops_.emplace_back(paths[i]);

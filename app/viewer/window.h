@@ -35,6 +35,7 @@ struct PicturePart {
 // A key that went down; GLFW's key and modifier bits.
 struct KeyPress {
     int key = 0, modifiers = 0;
+    bool again = false;  // it is being held, and the system repeats it
 };
 
 struct WindowOptions {

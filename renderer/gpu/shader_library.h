@@ -24,6 +24,12 @@ void addShaders(std::span<const EmbeddedShader> shaders);
 // Names of all modules that are embedded.
 std::vector<std::string> embeddedShaderNames();
 
+// A header that shaders share with the program, whole, as it was when the program was built.
+struct SharedHeader {
+    std::string_view name, text;  // name: below shaders/, "shared/scene.h"
+};
+std::span<const SharedHeader> sharedHeaders();
+
 // While shaders are being written: findShader gives these in place of the embedded ones, to devices opened
 // from now on. An empty map brings those back. From any thread.
 using ShaderModules = std::map<std::string, std::vector<std::uint32_t>, std::less<>>;

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <new>
 #include <semaphore>
 
 #include "renderer/core/error.h"
@@ -417,6 +418,45 @@ TEST(RenderWorker, ANewerStateEndsTheRefinement) {
     ASSERT_GE(asked.size(), 2u);
     EXPECT_EQ(asked[0], (std::pair<double, int>(1, 100)));
     for (std::size_t i = 1; i < asked.size(); ++i) EXPECT_EQ(asked[i].first, 3);
+}
+
+// Memory that is short for refining the picture that is there is asked for once, not again and again.
+TEST(RenderWorker, RefinementEndsWhereMemoryIsShort) {
+    std::atomic<int> pictures = 0;
+    RenderWorker worker(
+        [&] {
+            return both([&](const RenderInput&, const RenderSettings& settings) {
+                if (settings.width == 400 && ++pictures > 1) throw std::bad_alloc();
+                return greyPicture(settings);
+            });
+        },
+        [] {});
+    worker.show(1, stateOf(0));
+    for (int i = 0; i < 5000 && worker.status().error.empty(); ++i) std::this_thread::sleep_for(1ms);
+    EXPECT_NE(worker.status().error.find("out of memory"), std::string::npos);
+    std::this_thread::sleep_for(50ms);
+    EXPECT_EQ(pictures, 2);
+}
+
+// The view is there all the same.
+TEST(RenderWorker, AFailureBesideTheViewIsNoneOfTheView) {
+    RenderWorker worker(
+        [] {
+            return both([](const RenderInput& input, const RenderSettings& settings) {
+                if (input.rig.exposure == 1) throw Error("thumbnail", "too large");
+                return greyPicture(settings);
+            });
+        },
+        [] {});
+    worker.show(1, stateOf(0));
+    ASSERT_FALSE(resultsUntil(worker, 1).empty());
+    worker.renderAside({7, stateOf(1)});
+    for (int i = 0; i < 5000 && worker.status().asideError.empty(); ++i) std::this_thread::sleep_for(1ms);
+    EXPECT_NE(worker.status().asideError.find("too large"), std::string::npos);
+    EXPECT_EQ(worker.status().error, "");
+    const std::vector<AsideResult> failed = worker.takeAside();
+    ASSERT_EQ(failed.size(), 1u);
+    EXPECT_FALSE(failed[0].linear);
 }
 
 TEST(RenderWorker, AFailureIsToldAndTheNextStateIsTried) {

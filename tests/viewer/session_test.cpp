@@ -1,5 +1,9 @@
 // What menus and panels do, without a window: recovery of what was not saved, the figures of the comparison.
+#include <GLFW/glfw3.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -8,6 +12,8 @@
 #include "app/viewer/actions.h"
 #include "app/viewer/autosave.h"
 #include "app/viewer/comparing.h"
+#include "app/viewer/hot_keys.h"
+#include "renderer/scene/fields.h"
 #include "renderer/scene/gltf_writer.h"
 #include "renderer/scene/picture.h"
 #include "renderer/scene/rig.h"
@@ -100,6 +106,112 @@ TEST_F(SessionTest, WhatIsSavedIsNotKept) {
     session->edits.undo();
     autosave(*session);
     EXPECT_FALSE(keepAutosave());
+}
+
+// Two programs at once: neither takes what the other has not saved, nor writes over it.
+TEST_F(SessionTest, ProgramsThatRunAtOnceKeepTheirOwn) {
+    const int other = open((folder_ / "autosave.lock").c_str(), O_RDWR | O_CREAT, 0600);
+    ASSERT_EQ(flock(other, LOCK_EX), 0);
+    Rig ofTheOther;
+    ofTheOther.name = "other";
+    saveRig(ofTheOther, folder_ / "autosave.rig.json");
+
+    EXPECT_FALSE(keepAutosave()) << "the other is still running";
+    const auto session = openTwoHeads();
+    session->edits.apply("Name", [](Document& document) { document.rig.name = "own"; });
+    autosave(*session);
+    EXPECT_EQ(loadRig(folder_ / "autosave.rig.json").name, "other");
+    discardAutosave();
+    EXPECT_EQ(loadRig(folder_ / "autosave.rig.json").name, "other");
+
+    // It ends without saving: whoever starts next recovers that.
+    EXPECT_FALSE(findLeftBehind());
+    close(other);
+    EXPECT_TRUE(findLeftBehind());
+    const auto next = openTwoHeads();
+    recoverUnsaved(*next);
+    EXPECT_EQ(next->document().rig.name, "other");
+    discardAutosave();
+}
+
+TEST_F(SessionTest, MessagesEnd) {
+    const auto session = openTwoHeads();
+    const auto now = std::chrono::steady_clock::now();
+    session->say("Saved");
+    session->endMessage(now);
+    EXPECT_EQ(session->message, "Saved");
+    session->endMessage(now + 30s);
+    EXPECT_EQ(session->message, "");
+    session->complain("cannot be opened");
+    session->endMessage(now + 30s);
+    EXPECT_EQ(session->message, "cannot be opened");
+    session->endMessage(now + 90s);
+    EXPECT_EQ(session->message, "");
+    EXPECT_FALSE(session->messageIsError);
+    // What is under way is said until it has come to an end.
+    session->announce("Looks for the sun");
+    session->endMessage(now + 1h);
+    EXPECT_EQ(session->message, "Looks for the sun");
+    session->takeBack("another");
+    EXPECT_EQ(session->message, "Looks for the sun");
+    session->takeBack("Looks for the sun");
+    EXPECT_EQ(session->message, "");
+}
+
+// A picture that is to be saved is not lost to a hasty end, unless that is asked for twice.
+TEST_F(SessionTest, QuittingWaitsForWhatIsBeingSaved) {
+    const auto session = openTwoHeads();
+    savePicture(*session, folder_ / "picture.png");
+    ASSERT_TRUE(session->saves()) << "there is no picture yet";
+    quit(*session);
+    EXPECT_FALSE(session->quit);
+    continueQuitting(*session);
+    EXPECT_FALSE(session->quit);
+    session->saving = {};
+    continueQuitting(*session);
+    EXPECT_TRUE(session->quit) << "it is saved";
+
+    session->quit = false;
+    savePicture(*session, folder_ / "picture.png");
+    quit(*session);
+    quit(*session);
+    EXPECT_TRUE(session->quit) << "asked for twice";
+
+    session->quit = false;
+    session->quitsWhenSaved.reset();
+    quit(*session);
+    makeRedder(*session);
+    session->saving = {};
+    continueQuitting(*session);
+    EXPECT_FALSE(session->quit) << "something was edited meanwhile";
+}
+
+// A key that is held repeats steps; what it turns on stays on.
+TEST_F(SessionTest, KeysThatAreHeldRepeatSteps) {
+    const auto session = openTwoHeads();
+    const double before = session->light().intensity;
+    for (const bool again : {false, true, true}) {
+        runHotKey(*session, {GLFW_KEY_RIGHT_BRACKET, 0, again}, false);
+        runHotKey(*session, {GLFW_KEY_S, 0, again}, false);
+    }
+    EXPECT_NEAR(session->light().intensity, 2 * before, 1e-9);
+    EXPECT_TRUE(session->document().solo[0]);
+    for (int i = 0; i < 10000; ++i) runHotKey(*session, {GLFW_KEY_RIGHT_BRACKET, 0, true}, false);
+    EXPECT_EQ(session->light().intensity, fields::kIntensity.high);
+}
+
+// A window that has changed its size shows a picture that is not the view's.
+TEST_F(SessionTest, APictureOfAnotherSizeIsNotComplete) {
+    const auto session = openTwoHeads();
+    session->view = {0, 0, 4, 2};
+    WorkerResult picture;
+    picture.version = session->shownVersion();
+    picture.full = true;
+    picture.linear = std::make_shared<const Picture>(Picture{4, 2, 4, std::vector<float>(32, 0.5f)});
+    session->picture = picture;
+    EXPECT_TRUE(session->complete());
+    session->view.width = 5;
+    EXPECT_FALSE(session->complete());
 }
 
 TEST_F(SessionTest, TheChosenLightStaysChosenInAnotherOrder) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
+#include "app/viewer/shader_reload.h"
 #include "tests/cli/program.h"
 
 namespace cutis::test {
@@ -49,6 +52,29 @@ TEST(ShaderCompiler, KnowsTheShadersOfTheProgram) {
     const app::CompiledShaders compiled = app::compileShaders(CUTIS_SHADER_FOLDER, plain);
     EXPECT_EQ(compiled.error, "");
     EXPECT_EQ(compiled.modules.size(), plain.size());
+}
+
+// A program that is older than its shaders lays out what both read in another way: that is said, not shown.
+TEST(ShaderCompiler, KnowsAProgramThatIsOlderThanItsShaders) {
+    EXPECT_EQ(app::changedSharedHeader(CUTIS_SHADER_FOLDER), "");
+    const TemporaryFolder folder;
+    std::filesystem::copy(CUTIS_SHADER_FOLDER, folder / "shaders", std::filesystem::copy_options::recursive);
+    EXPECT_EQ(app::changedSharedHeader(folder / "shaders"), "");
+    const std::string header = folder / "shaders/shared/scene.h";
+    writeText(header, readText(header) + "struct More {};\n");
+    EXPECT_EQ(app::changedSharedHeader(folder / "shaders"), "shared/scene.h");
+
+    app::ShaderReload reload(folder / "shaders", [] {});
+    reload.update(true);
+    std::optional<app::ShaderReload::News> news;
+    for (int i = 0; i < 10000 && !news; ++i) {
+        news = reload.take();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ASSERT_TRUE(news);
+    EXPECT_FALSE(news->replaced);
+    EXPECT_NE(news->text.find("shared/scene.h"), std::string::npos) << news->text;
+    EXPECT_NE(news->text.find("build cutis again"), std::string::npos) << news->text;
 }
 
 TEST(ShaderCompiler, ReplacedModulesAreFoundUntilTheyGo) {

@@ -37,7 +37,7 @@ void drawFigures(Session& session) {
     ImGui::SameLine();
     if (ImGui::RadioButton("Perceived", !relative)) session.differenceMap = DifferenceMap::perceived;
     hint("FLIP, as shown on a screen. White: 0.5 and more");
-    if (!session.figures || session.comparing.valid()) {
+    if (!figuresAreOfNow(session)) {
         ImGui::TextDisabled("Comparing ...");
         return;
     }
@@ -89,7 +89,9 @@ void drawComparePanel(Session& session) {
     if (ImGui::Button("Save the comparison ...", {-1, 0}))
         showDialog(session, Dialog::saveComparison, "comparison");
     ImGui::EndDisabled();
-    hint("Pictures, difference maps, figures and a page that shows them, as cutis compare writes them (Ctrl+E)");
+    hint(
+        "Pictures, difference maps, figures and a page that shows them, as cutis compare writes them "
+        "(Ctrl+E)");
     if (session.compareMode == CompareMode::off) return;
     if (!session.compared[0].stored) {
         ImGui::TextDisabled("Store a state as A first.");

@@ -61,10 +61,7 @@ void drawLibrary(Session& session) {
                       files[i].filename() == current))
             openEnvironment(session, files[i]);
         hint(name.c_str());
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        ImGui::PushClipRect(at, {at.x + width, at.y + ImGui::GetTextLineHeight()}, true);
-        ImGui::TextDisabled("%s", name.c_str());
-        ImGui::PopClipRect();
+        shortText(name, true, width);
         ImGui::EndGroup();
     }
     if (files.empty()) ImGui::TextDisabled("tools/setup installs environments");
@@ -77,7 +74,7 @@ void drawEnvironmentPanel(Session& session) {
     if (settings.file.empty()) {
         ImGui::TextDisabled("No environment");
     } else {
-        heading(fs::path(settings.file).stem().c_str());
+        heading(fs::path(settings.file).stem().string());
         drawStrip(session, settings);
         bool changed = fieldRow(fields::kEnvironmentEnabled, settings.enabled);
         changed |= fieldRow(fields::kEnvironmentIntensity, settings.intensity);

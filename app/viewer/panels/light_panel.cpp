@@ -55,7 +55,7 @@ void drawStops(Session& session) {
     for (const auto& [text, stops] : steps) {
         if (text != steps[0].first) ImGui::SameLine(0, gap);
         if (ImGui::Button(text, {width, 0}))
-            editLight(session, "Intensity", [&](Light& light) { light.intensity *= std::exp2(stops); });
+            editLight(session, "Intensity", [&](Light& light) { brighten(light, stops); });
     }
 }
 

@@ -59,14 +59,12 @@ void drawChannel(Session& session, std::size_t index, float width, float height)
         !ofEnvironment)
         session.selectedLight = static_cast<int>(index);
     const std::string name = ofEnvironment ? "environment" : session.document().rig.lights[index].name;
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::PushClipRect(at, {at.x + width, at.y + ImGui::GetTextLineHeightWithSpacing()}, true);
-    ImGui::TextUnformatted(name.c_str());
-    ImGui::PopClipRect();
+    shortText(name, false, width);
     double stops = stopsOf(session, index);
     constexpr double kLow = -6, kHigh = 4;
     ImGui::SetNextItemWidth(width);
-    if (ImGui::SliderScalar("##stops", ImGuiDataType_Double, &stops, &kLow, &kHigh, "%+.1f stops"))
+    if (ImGui::SliderScalar("##stops", ImGuiDataType_Double, &stops, &kLow, &kHigh, "%+.1f stops",
+                            ImGuiSliderFlags_AlwaysClamp))
         setStops(session, index, stops);
     drawSwitches(session, index);
     ImGui::EndGroup();

@@ -121,14 +121,15 @@ void drawFigures(const WorkerResult& picture) {
 std::string timeText(double milliseconds) {
     char text[32];
     const bool inSeconds = milliseconds >= 9999.95;
-    std::snprintf(text, sizeof text, inSeconds ? "%.2f s" : "%.1f ms", inSeconds ? milliseconds / 1000 : milliseconds);
+    std::snprintf(text, sizeof text, inSeconds ? "%.2f s" : "%.1f ms",
+                  inSeconds ? milliseconds / 1000 : milliseconds);
     return text;
 }
 
 void drawPasses(const RenderStats& stats) {
     double total = 0;
     for (const PassStats& pass : stats.passes) total += pass.gpuMs;
-    heading(("Runs: " + timeText(total) + " on the device").c_str());
+    heading("Runs: " + timeText(total) + " on the device");
     if (!ImGui::BeginTable("passes", 2, ImGuiTableFlags_RowBg)) return;
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("0000.0 ms").x);

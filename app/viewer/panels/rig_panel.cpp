@@ -49,14 +49,18 @@ void drawStops(Session& session, std::size_t index, const Light& light) {
     if (std::abs(stops) < 0.005f) stops = 0;
     const float before = stops;
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::DragFloat("##stops", &stops, 0.02f, -20, 20, known ? "%+.2f" : "aside",
+    if (ImGui::DragFloat("##stops", &stops, 0.02f, -20, 20,
+                         known                 ? "%+.2f"
+                         : light.intensity > 0 ? "aside"
+                                               : "dark",
                          ImGuiSliderFlags_NoInput) &&
         stops != before)
         session.edits.apply("Intensity of " + light.name, [&](Document& document) {
-            document.rig.lights[index].intensity = light.intensity * std::exp2(double(stops) - before);
+            brighten(document.rig.lights[index], double(stops) - before);
         });
-    hint(known ? "Stops below the brightest light, at the head. Drag: brighter or darker"
-               : "Shines past the head. Drag: brighter or darker");
+    hint(known                 ? "Stops below the brightest light, at the head. Drag: brighter or darker"
+         : light.intensity > 0 ? "Shines past the head. Drag: brighter or darker"
+                               : "Gives no light: its intensity is 0");
 }
 
 void drawRow(Session& session, int index) {
@@ -142,7 +146,7 @@ void drawButtons(Session& session) {
 void drawRigPanel(Session& session) {
     const Document& document = session.document();
     const std::string name = document.rig.name.empty() ? "Lights" : document.rig.name;
-    heading(name.c_str());
+    heading(name);
     const float rows = static_cast<float>(std::clamp<std::size_t>(document.rig.lights.size(), 4, 8));
     const float scale = static_cast<float>(session.uiScale);
     // Rows as high as a line of text, their fields too.

@@ -74,8 +74,7 @@ void drawProfile(Session& session, std::size_t index, const std::string& name) {
     const skin::Profile before = session.document().skin[index]->profile;
     skin::Profile profile = before;
     std::string edit = "Profile of " + name;
-    heading(fields::kProfile.label);
-    hint(fields::kProfile.help);
+    heading(fields::kProfile.label, fields::kProfile.help);
     if (ImGui::BeginTable("profile", 5)) {
         ImGui::TableSetupColumn(fields::kVariance.unit);
         for (const char* channel : {"red", "green", "blue"}) ImGui::TableSetupColumn(channel);
@@ -148,7 +147,7 @@ void drawSkinPanel(Session& session) {
     const auto index = static_cast<std::size_t>(session.selectedMaterial);
     if (session.selectedMaterial < 0 || index >= skin.size() || index >= session.geometry->materials.size())
         return;
-    heading(session.geometry->materials[index].name.c_str());
+    heading(session.geometry->materials[index].name);
     if (skin[index]) {
         ImGui::PushID(session.selectedMaterial);
         drawParameters(session, index);

@@ -16,14 +16,16 @@ std::string workText(const Session& session) {
     if (!session.loading.empty()) {
         std::snprintf(text, sizeof text, "Loading %s, %.0f s", session.loading.c_str(),
                       session.loadingSeconds);
-    } else if (session.picture && session.picture->refined > 0 &&
-               session.picture->version == session.shownVersion()) {
+    } else if (session.complete() && session.picture->overlay == session.overlay) {
         const WorkerResult& picture = *session.picture;
-        char state[64] = "Converged";
-        if (!picture.converged && picture.refined < Refinement::kPixelPictures) {
+        const bool refines = picture.overlay.aov.empty();
+        char state[64] = "Complete";
+        if (picture.converged) {
+            std::snprintf(state, sizeof state, "Converged");
+        } else if (refines && picture.refined < Refinement::kPixelPictures) {
             std::snprintf(state, sizeof state, "Refining edges, %d of %d", picture.refined,
                           Refinement::kPixelPictures);
-        } else if (!picture.converged) {
+        } else if (refines) {
             std::snprintf(state, sizeof state, "Refining shadows, %d of at most %d", picture.shadowSets,
                           Refinement::kMostShadowPictures);
         }

@@ -148,9 +148,10 @@ bool textRow(const char* text, std::string& value) {
     return ImGui::InputText(hidden(text).c_str(), &value);
 }
 
-void heading(const char* text) {
+void heading(const std::string& text, const char* help) {
     ImGui::Dummy({0, ImGui::GetFontSize() * 0.15f});
-    ImGui::TextDisabled("%s", text);
+    shortText(text);
+    if (help) hint(help);
     ImGui::Separator();
 }
 
@@ -158,8 +159,8 @@ void hint(const char* text) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
-void shortText(const std::string& text, bool dim) {
-    const float room = ImGui::GetContentRegionAvail().x;
+void shortText(const std::string& text, bool dim, float width) {
+    const float room = width > 0 ? width : ImGui::GetContentRegionAvail().x;
     std::string shown = text;
     while (!shown.empty() && ImGui::CalcTextSize(shown.c_str()).x > room) {
         // Without its last character, which may be several bytes, and its ellipsis.
@@ -188,11 +189,12 @@ void optionHint(const char* name) {
 
 bool toggleButton(const char* text, bool on, unsigned color) {
     if (on) {
-        ImGui::PushStyleColor(ImGuiCol_Button, color);
+        for (const ImGuiCol part : {ImGuiCol_Button, ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive})
+            ImGui::PushStyleColor(part, color);
         ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(20, 20, 20, 255));
     }
     const bool clicked = ImGui::SmallButton(text);
-    if (on) ImGui::PopStyleColor(2);
+    if (on) ImGui::PopStyleColor(4);
     return clicked;
 }
 

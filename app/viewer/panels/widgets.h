@@ -39,10 +39,10 @@ bool sliderRow(const char* text, double& value, double min, double max, const ch
 bool intRow(const char* text, int& value, int min, int max, const char* format = "%d");
 bool checkRow(const char* text, bool& value);
 bool textRow(const char* text, std::string& value);
-// A heading with a thin line.
-void heading(const char* text);
-// Text that ends in an ellipsis where the row ends, and is whole in a tooltip.
-void shortText(const std::string& text, bool dim = true);
+// A heading with a thin line, and what it means as a tooltip.
+void heading(const std::string& text, const char* help = nullptr);
+// Text that ends in an ellipsis where the row ends, or after `width` pixels, and is whole in a tooltip.
+void shortText(const std::string& text, bool dim = true, float width = 0);
 void hint(const char* text);  // shown when the mouse rests on the last control
 // The help of that option of the command line, which the control stands for.
 void optionHint(const char* option);
