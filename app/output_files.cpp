@@ -6,6 +6,7 @@
 
 #include "app/usage_error.h"
 #include "renderer/core/error.h"
+#include "renderer/core/files.h"
 
 namespace cutis::app {
 namespace fs = std::filesystem;
@@ -33,12 +34,10 @@ std::vector<fs::path> filesToWrite(const Request& request, const std::string& co
 }
 
 void checkWritable(const fs::path& file) {
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    std::error_code error;
-    if (!fs::is_directory(folder, error)) throw Error("cannot write file", "no such folder", folder.string());
+    const fs::path place = placeToWrite(file);
+    const fs::path folder = place.has_parent_path() ? place.parent_path() : fs::path(".");
     if (access(folder.c_str(), W_OK) != 0)
         throw Error("cannot write file", "the folder is not writable", folder.string());
-    if (fs::is_directory(file, error)) throw Error("cannot write file", "it is a folder", file.string());
 }
 
 void checkInputsSurvive(const Inputs& inputs, const std::vector<fs::path>& outputs) {

@@ -1,15 +1,21 @@
 #include "renderer/core/error.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cstdio>
 
 namespace cutis {
 namespace {
 
-// One line whatever the parts hold: file names and library messages can carry line breaks.
+// One line of plain text whatever the parts hold: names in files and messages of libraries can carry line
+// breaks, and escape sequences that command a terminal (ECMA-48: controls below 0x20, 0x7f, and U+0080 to
+// U+009F).
 std::string oneLine(std::string text) {
-    std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto c = static_cast<unsigned char>(text[i]);
+        const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0;
+        if (c < 0x20 || c == 0x7f) text[i] = ' ';
+        if (c == 0xc2 && next >= 0x80 && next <= 0x9f) text[i] = text[i + 1] = ' ';
+    }
     return text;
 }
 

@@ -30,7 +30,8 @@ std::string reason(int error) {
 fs::path temporaryBeside(const fs::path& path) {
     static std::atomic<unsigned> counter{0};
     std::string name = ".";
-    name += path.stem().string() + "." + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
+    name +=
+        path.stem().string() + "." + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
     // The extension stays last: image writers choose their format by it.
     return path.parent_path() / (name + path.extension().string());
 }
@@ -66,37 +67,55 @@ class TemporaryFile {
     fs::path file_;
 };
 
-}  // namespace
-
-std::vector<std::byte> readFile(const fs::path& path, std::uint64_t maxBytes) {
+// Throws Error unless it is a regular file.
+std::uint64_t sizeOfFile(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status)) throw Error("cannot read file", "no such file", path.string());
     if (!fs::is_regular_file(status)) throw Error("cannot read file", "not a regular file", path.string());
     const std::uint64_t size = fs::file_size(path, error);
     if (error) throw Error("cannot read file", error.message(), path.string());
+    return size;
+}
+
+}  // namespace
+
+std::vector<std::byte> readFile(const fs::path& path, std::uint64_t maxBytes) {
+    const std::uint64_t size = sizeOfFile(path);
     if (size > maxBytes) {
         throw Error("cannot read file",
                     "it has " + std::to_string(size) + " bytes, the limit is " + std::to_string(maxBytes),
                     path.string());
     }
+    return readFileStart(path, size);
+}
+
+std::vector<std::byte> readFileStart(const fs::path& path, std::uint64_t most) {
+    std::vector<std::byte> bytes(std::min(sizeOfFile(path), most));
     errno = 0;
     std::ifstream in(path, std::ios::binary);
-    std::vector<std::byte> bytes(size);
-    if (!in || !in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
+    if (!in || !in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
         throw Error("cannot read file", reason(errno), path.string());
-    }
     return bytes;
 }
 
-void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+fs::path placeToWrite(const fs::path& path) {
     std::error_code error;
+    const fs::path place = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
+    const fs::path folder = place.has_parent_path() ? place.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, error)) throw Error("cannot write file", "no such folder", folder.string());
-    if (fs::is_directory(path, error)) throw Error("cannot write file", "it is a folder", path.string());
-    const TemporaryFile temporary(temporaryBeside(path));
+    if (fs::is_directory(place, error)) throw Error("cannot write file", "it is a folder", path.string());
+    if (fs::exists(place, error) && !fs::is_regular_file(place, error))
+        throw Error("cannot write file", "not a regular file", path.string());
+    return place;
+}
+
+void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+    const fs::path place = placeToWrite(path);
+    const TemporaryFile temporary(temporaryBeside(place));
     write(temporary.path());
-    fs::rename(temporary.path(), path, error);
+    std::error_code error;
+    fs::rename(temporary.path(), place, error);
     if (error) throw Error("cannot write file", error.message(), path.string());
 }
 
@@ -139,7 +158,8 @@ fs::path cacheFolder() {
 std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t seed) {
     constexpr std::uint64_t kPrime = 0x100000001b3u;
     std::uint64_t hash = seed;
-    // Eight bytes a step: the byte-wise loop is a serial chain of multiplications, too slow for 100 MB scenes.
+    // Eight bytes a step: the byte-wise loop is a serial chain of multiplications, too slow for 100 MB
+    // scenes.
     std::size_t i = 0;
     for (; i + 8 <= bytes.size(); i += 8) {
         std::uint64_t word;

@@ -13,6 +13,12 @@ namespace cutis {
 
 // The bytes of a regular file. Throws Error when it is absent, unreadable or larger than maxBytes.
 std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t maxBytes = std::uint64_t(8) << 30);
+// Its first bytes, all where it has fewer: to see whether it is worth reading, before gigabytes of nothing are.
+std::vector<std::byte> readFileStart(const std::filesystem::path& path, std::uint64_t bytes);
+
+// Where what is written to `path` will lie: there, or where a link leads, which stays a link. Throws Error where its
+// folder does not exist or something lies there that is no file to replace: a folder, a device, a pipe.
+std::filesystem::path placeToWrite(const std::filesystem::path& path);
 
 // Writes beside `path` and renames, so that a reader sees the old file or the new one, never a part.
 // `write` gets the temporary path (same folder, same extension) and must create it. Throws Error and leaves no debris.

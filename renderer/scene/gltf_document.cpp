@@ -93,6 +93,8 @@ bool isWithin(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
+constexpr std::uint32_t kMagic = 0x46546c67;  // "glTF", with which a .glb file begins
+
 std::uint32_t wordAt(std::span<const std::byte> bytes, std::size_t at) {
     std::uint32_t word;
     std::memcpy(&word, bytes.data() + at, sizeof word);
@@ -102,7 +104,9 @@ std::uint32_t wordAt(std::span<const std::byte> bytes, std::size_t at) {
 }  // namespace
 
 Document::Document(const fs::path& file)
-    : file_(file), source_{"cannot load scene", file.string()}, bytes_(readFile(file, kMaxFileBytes)) {
+    : file_(file), source_{"cannot load scene", file.string()} {
+    checkHead();
+    bytes_ = readFile(file, kMaxFileBytes);
     openContainer();
     const JsonView asset = root().member("asset");
     const std::string version = asset.member("version").string();
@@ -117,9 +121,20 @@ Document::Document(const fs::path& file)
 
 Document::~Document() = default;
 
+// Refuses what is neither .glb nor JSON text; of an empty file the parser says what is missing.
+void Document::checkHead() const {
+    const std::vector<std::byte> head = readFileStart(file_, 16);
+    if (head.size() >= 4 && wordAt(head, 0) == kMagic) return;
+    std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // the byte order mark of UTF-8
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first != std::string_view::npos && text[first] != '{')
+        throw Error(source_.what, "not glTF: it begins neither as .glb nor as a JSON object", source_.file);
+}
+
 // glTF 2.0, §4.4: a header, a chunk of JSON, perhaps one of binary data. Anything else is JSON text.
 void Document::openContainer() {
-    constexpr std::uint32_t kMagic = 0x46546c67, kJson = 0x4e4f534a, kBinary = 0x004e4942;
+    constexpr std::uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
     if (bytes_.size() < 4 || wordAt(bytes_, 0) != kMagic) return parse(bytes_);
     const auto fail = [&](const std::string& why) { throw Error(source_.what, why, source_.file); };
     if (bytes_.size() < 20) fail("the .glb file is truncated");
@@ -194,16 +209,23 @@ JsonView Document::resolve(const JsonView& reference, const char* name) const {
 std::span<const std::byte> Document::buffer(std::size_t index) {
     const JsonView entryView = entry("buffers", index);
     const JsonView length = entryView.member("byteLength");
+    const std::int64_t stated = length.integer();
     const auto uri = entryView.find("uri");
     std::span<const std::byte> bytes;
     if (!uri && index == 0 && !binaryChunk_.empty()) {
         bytes = binaryChunk_;
     } else {
         if (!uri) entryView.fail("it has no data");
-        if (!buffers_[index]) buffers_[index] = readUri(*uri);
+        if (!buffers_[index]) {
+            // No more than it states, of a file that may be longer or that other buffers name as well; and no more
+            // than a byte beyond what is left.
+            const std::uint64_t left = kMaxFileBytes - loaded_ + 1;
+            buffers_[index] = readUriStart(*uri, std::min(std::uint64_t(std::max<std::int64_t>(stated, 0)), left));
+            loaded_ += buffers_[index]->size();
+            if (loaded_ > kMaxFileBytes) entryView.fail("the scene has more than 4 GiB of buffers");
+        }
         bytes = *buffers_[index];
     }
-    const std::int64_t stated = length.integer();
     if (stated < 0 || std::uint64_t(stated) > bytes.size()) {
         length.fail("it states " + std::to_string(stated) + " bytes, there are " +
                     std::to_string(bytes.size()));
@@ -239,6 +261,13 @@ std::vector<std::byte> Document::readUri(const JsonView& uri) const {
         uri.fail("only data URIs in base64 are supported");
     }
     return decodeBase64(std::string_view(text).substr(comma + 1), uri);
+}
+
+std::vector<std::byte> Document::readUriStart(const JsonView& uri, std::uint64_t bytes) const {
+    if (!uri.string().starts_with("data:")) return readFileStart(fileOfUri(uri), bytes);
+    std::vector<std::byte> start = readUri(uri);
+    start.resize(std::min<std::uint64_t>(start.size(), bytes));
+    return start;
 }
 
 // A scene file may come from anyone: it must not make cutis read what it has no business with.

@@ -45,6 +45,8 @@ class Document {
     std::span<const std::byte> bufferView(std::size_t index);
     // The bytes of a URI value: a data URI's, or those of a file within the folder of the glTF file.
     std::vector<std::byte> readUri(const JsonView& uri) const;
+    // The first bytes of it, at most so many.
+    std::vector<std::byte> readUriStart(const JsonView& uri, std::uint64_t bytes) const;
 
     // The data of an accessor, tightly packed, that something else than a buffer view holds.
     void supply(std::size_t accessor, std::vector<std::byte> data) { supplied_[accessor] = std::move(data); }
@@ -63,6 +65,7 @@ class Document {
     // What EXT_meshopt_compression of a buffer view holds; in gltf_meshopt.cpp.
     std::vector<std::byte> decodeMeshopt(const JsonView& extension);
     void parse(std::span<const std::byte> text);
+    void checkHead() const;
     void openContainer();
     void checkExtensions() const;
     std::filesystem::path fileOfUri(const JsonView& uri) const;
@@ -75,6 +78,7 @@ class Document {
     std::vector<std::optional<std::vector<std::byte>>> buffers_;  // loaded ones outside the binary chunk
     std::map<std::size_t, std::vector<std::byte>> decoded_;       // per buffer view that is compressed
     std::map<std::size_t, std::vector<std::byte>> supplied_;      // per accessor
+    std::uint64_t loaded_ = 0;  // bytes of buffers_
     std::uint64_t spent_ = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include "renderer/core/error.h"
 #include "renderer/core/parallel.h"
+#include "renderer/scene/codec/image_file.h"
 #include "renderer/scene/gltf_parts.h"
 #include "renderer/scene/image_io.h"
 #include "renderer/scene/tonemap.h"
@@ -32,21 +33,25 @@ class ImageReader {
 
     void run() {
         for (std::size_t i = 0; i < uses_.size(); ++i) locate(i);
-        std::atomic<std::uint64_t> bytes{0};
+        // Before any is decoded: a few small files may claim gigabytes.
+        std::atomic<std::uint64_t> files{0}, decoded{0};
         parallelFor(uses_.size(), [&](std::size_t i) {
-            decode(i);
-            if (bytes += scene_.images[i].texels.size(); bytes > kMaxDecodedBytes) {
+            read(i);
+            if ((files += sources_[i].bytes.size()) > kMaxDecodedBytes ||
+                (decoded += decodedBytes(sources_[i].bytes)) > kMaxDecodedBytes) {
                 throw Error("cannot load scene", "its images have more than 4 GiB",
                             document_.file().string());
             }
         });
+        parallelFor(uses_.size(), [&](std::size_t i) { decode(i); });
         for (std::size_t i = 0; i < uses_.size(); ++i) settleColor(int(i));
     }
 
   private:
     struct Source {
-        std::optional<JsonView> uri;       // to be read by the thread that decodes it
-        std::span<const std::byte> bytes;  // of a buffer view
+        std::optional<JsonView> uri;       // where it is no buffer view
+        std::vector<std::byte> file;       // what lies there
+        std::span<const std::byte> bytes;  // of `file` or a buffer view
         std::string where;
     };
 
@@ -66,13 +71,22 @@ class ImageReader {
         image.name = isFile ? source.uri->string() : entry.path();
     }
 
+    void read(std::size_t i) {
+        Source& source = sources_[i];
+        if (!source.uri) return;
+        const bool isFile = !source.uri->string().starts_with("data:");
+        if (isFile && imageFormat(document_.readUriStart(*source.uri, 16)).empty())
+            throw Error("cannot read image", "not an image of a known format", source.where);
+        source.file = document_.readUri(*source.uri);
+        source.bytes = source.file;
+    }
+
     void decode(std::size_t i) {
-        const Source& source = sources_[i];
-        std::vector<std::byte> file;
-        if (source.uri) file = document_.readUri(*source.uri);
+        Source& source = sources_[i];
         bool isFloat = false;
         const std::string name = scene_.images[i].name;
-        scene_.images[i] = decodeImage(source.uri ? file : source.bytes, source.where, &isFloat);
+        scene_.images[i] = decodeImage(source.bytes, source.where, &isFloat);
+        source.file = {};
         scene_.images[i].name = name;
         isFloat_[i] = isFloat;
     }

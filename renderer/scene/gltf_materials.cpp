@@ -262,8 +262,17 @@ class MaterialReader {
         return int(known->second);
     }
 
+    // What tells images apart: entries that name one file or buffer view are one image, decoded once.
+    std::string sourceOf(std::size_t fileImage) const {
+        const JsonView entry = document_.entry("images", fileImage);
+        const auto uri = entry.find("uri"), view = entry.find("bufferView");
+        if (view) return "view " + std::to_string(view->integer());
+        const bool isFile = uri && !uri->string().starts_with("data:");
+        return isFile ? "file " + uri->string() : "image " + std::to_string(fileImage);
+    }
+
     int useImage(std::size_t fileImage, bool color) {
-        const auto [known, isNew] = images_.try_emplace(fileImage, map_.images.size());
+        const auto [known, isNew] = images_.try_emplace(sourceOf(fileImage), map_.images.size());
         if (isNew) map_.images.push_back({fileImage});
         ImageUse& use = map_.images[known->second];
         (color ? use.asColor : use.asData) = true;
@@ -275,7 +284,7 @@ class MaterialReader {
     MaterialMap map_;
     std::map<std::tuple<int, bool, Wrap, Wrap, bool, bool>, std::size_t>
         textures_;                                    // their place in the scene
-    std::map<std::size_t, std::size_t> images_;       // per image of the file: its place in the scene
+    std::map<std::string, std::size_t> images_;       // per source: its place in the scene
     std::vector<std::optional<SkinMaterial>> hints_;  // per material of the scene
     bool needsDefault_ = false;
 };

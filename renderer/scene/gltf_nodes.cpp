@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
 
 #include "renderer/core/error.h"
+#include "renderer/scene/fields.h"
 #include "renderer/scene/gltf_parts.h"
 
 namespace cutis::gltf {
@@ -92,10 +94,12 @@ Light readLight(const JsonView& light) {
     if (const auto color = light.find("color")) {
         const std::vector<double> c = color->numbers(3);
         l.color = {c[0], c[1], c[2]};
-        if (c[0] < 0 || c[1] < 0 || c[2] < 0) color->fail("must not be negative");
+        if (std::min({c[0], c[1], c[2]}) < 0) color->fail("must not be negative");
+        if (std::max({c[0], c[1], c[2]}) > fields::kColor.max) color->fail("must be at most 1e6");
     }
     l.intensity = light.number("intensity", 1);
     if (l.intensity < 0) light.member("intensity").fail("must not be negative");
+    if (l.intensity > fields::kIntensity.max) light.member("intensity").fail("must be at most 1e12");
     if (const auto range = light.find("range")) l.range = positive(*range);
     return l;
 }

@@ -7,6 +7,7 @@
 
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
+#include "renderer/scene/codec/image_file.h"
 #include "renderer/scene/codec_client.h"
 
 namespace cutis {
@@ -83,6 +84,16 @@ Image decodeImage(std::span<const std::byte> file, const std::string& name, bool
     }
     if (floatFile) *floatFile = pixels.layout.isFloat;
     return image;
+}
+
+std::uint64_t decodedBytes(std::span<const std::byte> file) {
+    PixelLayout layout = claimedLayout(file);
+    // Of other formats the codec tells the size when it refuses to decode a single byte of it.
+    if (layout.width <= 0) layout = decodeImageMemory(file, {kMaxImageSize, kMaxImageSize, 4, 0}).layout;
+    if (layout.width <= 0 || layout.height <= 0) return 0;
+    const std::uint64_t texel = layout.type == SampleType::uint8 ? 4 : 8;
+    return std::min<std::uint64_t>(std::uint64_t(layout.width) * std::uint64_t(layout.height) * texel,
+                                   kMaxImageBytes);
 }
 
 std::vector<std::byte> encodePng(const Image& image) {

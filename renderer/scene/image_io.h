@@ -21,6 +21,10 @@ inline constexpr std::size_t kMaxImageBytes = std::size_t(1) << 30;  // of one i
 // the file holds floating-point, hence linear, values. Throws Error naming `name`.
 Image decodeImage(std::span<const std::byte> file, const std::string& name, bool* floatFile = nullptr);
 
+// Bytes of texels that decodeImage() will make of a file, by its header, at most those of one image; 0 where
+// it has none.
+std::uint64_t decodedBytes(std::span<const std::byte> file);
+
 // A PNG file of an rgba8 image; RGB without alpha when the image is opaque. Throws Error.
 std::vector<std::byte> encodePng(const Image& image);
 

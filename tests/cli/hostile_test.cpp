@@ -96,6 +96,12 @@ void cutSky(Where folder) {
     writeText(folder / "sky.exr", whole.substr(0, whole.size() / 2));
 }
 
+// Three gigabytes that take no room on disk.
+void writeZeros(const fs::path& path) {
+    writeText(path, {});
+    fs::resize_file(path, 3'000'000'000);
+}
+
 // Some hundred bytes that claim 15 million texels: decoders of JPEG make up what is not there.
 void lyingJpegSky(Where folder) {
     writeGlb(twoHeads(), folder / "scene.glb");
@@ -204,6 +210,39 @@ std::vector<Hostile> hostiles() {
         {"image_of_65536_texels", image(lyingPng(65536, 8)), {"scene.glb", "images[0]"}},
         {"image_of_2_gigabytes", image(lyingPng(16384, 16)), {"scene.glb", "images[0]"}},
         {"image_shorter_than_it_says", image(lyingPng(4096, 8)), {"scene.glb", "images[0]"}},
+        // A gigabyte each, from 80 bytes.
+        {"six_images_of_a_gigabyte",
+         [](Where folder) {
+             GltfFile file = skinFile();
+             for (int i = 0; i < 6; ++i) {
+                 const std::string name = std::to_string(i) + ".png";
+                 writeText(folder / name, lyingPng(16384, 8));
+                 file.json["images"][i] = {{"uri", name}};
+                 file.json["textures"][i] = {{"source", i}};
+                 file.json["materials"][i] = file.json["materials"][0];
+                 file.json["materials"][i]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = i;
+                 file.json["meshes"][0]["primitives"][i] = file.json["meshes"][0]["primitives"][0];
+                 file.json["meshes"][0]["primitives"][i]["material"] = i;
+             }
+             file.saveGlb(folder);
+         },
+         {"scene.glb", "its images have more than 4 GiB"}},
+        {"image_of_3_gigabytes_of_nothing",
+         [](Where folder) {
+             skinFile().saveGlb(folder);
+             writeZeros(folder / "skin.png");
+         },
+         {"scene.glb", "images[0]"}},
+        {"scene_of_3_gigabytes_of_nothing",
+         [](Where folder) { writeZeros(folder / "scene.glb"); },
+         {"scene.glb", "not glTF"}},
+        {"extension_that_commands_the_terminal",
+         glb([](Json& j) {
+             j["extensionsRequired"] = {
+                 "\x1b[2J\xc2\x9b"
+                 "2Jnone"};
+         }),
+         {"scene.glb", "extensionsRequired[0]"}},
         {"sky_cut_off", cutSky, {"sky.exr"}, sky},
         {"sky_of_jpeg_that_lies",
          lyingJpegSky,

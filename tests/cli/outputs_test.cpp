@@ -1,6 +1,7 @@
 // Results survive what happens to a machine: a full disk, a read-only folder, a kill at any moment, an
 // interrupt, other processes at the same caches, damaged cache entries.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <future>
@@ -72,6 +73,19 @@ TEST_F(Outputs, AReadOnlyFolderIsRefusedBeforeTheWork) {
     }
     EXPECT_EQ(readText(locked / "a.exr"), "old");
     fs::permissions(locked, fs::perms::owner_all);
+}
+
+TEST_F(Outputs, NoDeviceIsReplacedAndNoLink) {
+    const std::string pipe = folder_ / "pipe.exr";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    expectFailure(runCutis(renderTo(pipe)), 1, {"cannot write file", "not a regular file", "pipe.exr"});
+    EXPECT_TRUE(fs::is_fifo(pipe));
+    const fs::path link = folder_ / "link.rig.json", target = folder_ / "target.rig.json";
+    writeText(target, "old");
+    fs::create_symlink("target.rig.json", link);
+    expectSuccess(runCutis({"rig", "export", "rembrandt", "-o", link}));
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_NE(readText(target), "old");
 }
 
 TEST_F(Outputs, AKillAtAnyMomentLeavesAWholeFile) {

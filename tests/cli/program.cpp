@@ -22,6 +22,11 @@ void expectFailure(const ProcessResult& run, int status, const std::vector<std::
     EXPECT_EQ(run.err.find("cutis: error: "), 0u) << run.err;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     EXPECT_TRUE(run.err.ends_with('\n')) << run.err;
+    // Nothing that commands a terminal.
+    EXPECT_EQ(
+        std::count_if(run.err.begin(), run.err.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }),
+        1)
+        << run.err;
     for (const std::string& part : parts)
         EXPECT_NE(run.err.find(part), std::string::npos) << part << " not in " << run.err;
 }

@@ -251,6 +251,21 @@ const BadFile kBadFiles[] = {
          f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
      },
      "extensions.KHR_lights_punctual.lights[0].type"},
+    // Beyond what sums in single precision hold.
+    {"light of 1e300 candela",
+     [](GltfFile& f) {
+         f.json["extensions"]["KHR_lights_punctual"]["lights"] =
+             json::parse(R"([{"type": "point", "intensity": 1e300}])");
+         f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+     },
+     "extensions.KHR_lights_punctual.lights[0].intensity"},
+    {"light of colour 1e30",
+     [](GltfFile& f) {
+         f.json["extensions"]["KHR_lights_punctual"]["lights"] =
+             json::parse(R"([{"type": "point", "color": [1, 1e30, 1]}])");
+         f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+     },
+     "extensions.KHR_lights_punctual.lights[0].color"},
 };
 
 class GltfBadInput : public testing::TestWithParam<BadFile> {};

@@ -166,6 +166,18 @@ TEST(GltfImages, DeepColoursAreMadeLinear) {
     EXPECT_EQ(firstTexel(linear.images.at(0)).r, 0.5f);
 }
 
+TEST(GltfImages, EntriesOfOneFileAreOneImage) {
+    const test::TemporaryFolder folder;
+    writeImage<std::uint8_t>(folder / "a.png", {51, 102, 153});
+    test::GltfFile file = test::triangleFile();
+    file.json["images"] = {{{"uri", "a.png"}}, {{"uri", "a.png"}}};
+    file.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                               {"emissiveTexture", {{"index", 1}}}}};
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    EXPECT_EQ(loadGltf(file.saveEmbedded(folder.path())).images.size(), 1u);
+}
+
 TEST(GltfImages, UnusedOnesAreNotEvenLookedFor) {
     const test::TemporaryFolder folder;
     EXPECT_TRUE(loadWithImage(folder, {{"uri", "absent.png"}}, false, false).images.empty());

@@ -70,24 +70,33 @@ class JpegFile {
             if (file_.size() - at < 2) return kTruncated;
             const std::size_t length = bigEndian(file_, at, 2);
             if (length < 2 || length > file_.size() - at) return kTruncated;
-            // Frames in Huffman codes, each of which has a bit or more. Arithmetic codes have no such bound.
-            if (code >= 0xc0 && code <= 0xc2) readFrame(file_.subspan(at + 2, length - 2), code == 0xc2);
+            // A frame, unless it is a table (DHT, DAC) or reserved (JPG).
+            if ((code & 0xf0) == 0xc0 && code != 0xc4 && code != 0xc8 && code != 0xcc)
+                readFrame(file_.subspan(at + 2, length - 2), code);
             at += length;
         }
         if (8 * coded_ >= leastBits_) return {};
-        return "the JPEG is truncated: its " + std::to_string(coded_) + " bytes of data cannot hold " + size_;
+        return "the JPEG is truncated: its " + std::to_string(coded_) + " bytes of data cannot hold " +
+               std::to_string(width_) + " x " + std::to_string(height_) + " texels";
     }
+
+    // Of the frame that findDamage() came by; 0 before.
+    int width() const { return width_; }
+    int height() const { return height_; }
 
   private:
     static constexpr std::byte kMark{0xff};
     static constexpr const char* kTruncated = "the JPEG is truncated";
 
-    // A block of 8 x 8 has a code for its mean in some scan, and one more where its other coefficients are in
-    // the same scan (the end of the block, if nothing else): there, T.81, figure F.1 and F.2. Progressive
-    // scans may pass over those of thousands of blocks in one code (G.1.2.2).
-    void readFrame(std::span<const std::byte> frame, bool progressive) {
+    // In Huffman codes, which have a bit or more each, a block of 8 x 8 has one code for its mean, and one at
+    // least for its other coefficients (that there are none; T.81, F.1.2) where the frame is sequential:
+    // progressive scans pass over those of thousands of blocks in one code (G.1.2.2). Arithmetic codes have
+    // no such bound.
+    void readFrame(std::span<const std::byte> frame, std::uint8_t code) {
         if (frame.size() < 6) return;  // its decoder refuses it
-        const std::uint64_t height = bigEndian(frame, 1, 2), width = bigEndian(frame, 3, 2);
+        height_ = static_cast<int>(bigEndian(frame, 1, 2));
+        width_ = static_cast<int>(bigEndian(frame, 3, 2));
+        const std::uint64_t codes = code < 0xc2 ? 2 : code == 0xc2 ? 1 : 0;  // of a block
         const std::size_t components = std::min<std::size_t>(bigEndian(frame, 5, 1), (frame.size() - 6) / 3);
         std::uint64_t widest = 1, highest = 1;
         const auto across = [&](std::size_t c) { return bigEndian(frame, 7 + 3 * c, 1) >> 4; };
@@ -98,19 +107,17 @@ class JpegFile {
         }
         leastBits_ = 0;
         for (std::size_t c = 0; c < components; ++c) {
-            const auto blocks = [](std::uint64_t texels, std::uint64_t share, std::uint64_t of) {
-                return (texels * share + 8 * of - 1) / (8 * of);
+            const auto blocks = [](int texels, std::uint64_t share, std::uint64_t of) {
+                return (std::uint64_t(texels) * share + 8 * of - 1) / (8 * of);
             };
-            leastBits_ +=
-                blocks(width, across(c), widest) * blocks(height, down(c), highest) * (progressive ? 1 : 2);
+            leastBits_ += blocks(width_, across(c), widest) * blocks(height_, down(c), highest) * codes;
         }
-        size_ = std::to_string(width) + " x " + std::to_string(height) + " texels";
     }
 
     std::span<const std::byte> file_;
     std::uint64_t coded_ = 0;  // bytes outside of segments
     std::uint64_t leastBits_ = 0;
-    std::string size_;
+    int width_ = 0, height_ = 0;
 };
 
 }  // namespace
@@ -130,6 +137,18 @@ std::string imageFormat(std::span<const std::byte> file) {
     if (starts("BM")) return "bmp";
     if (starts("GIF8")) return "gif";
     return {};
+}
+
+PixelLayout claimedLayout(std::span<const std::byte> file) {
+    const std::string format = imageFormat(file);
+    if (format == "png" && file.size() >= 25) {  // signature; the header's length, type, width, height, depth
+        return {static_cast<int>(bigEndian(file, 16, 4)), static_cast<int>(bigEndian(file, 20, 4)), 0,
+                std::to_integer<int>(file[24]) > 8 ? SampleType::uint16 : SampleType::uint8};
+    }
+    if (format != "jpeg") return {};
+    JpegFile jpeg(file);
+    jpeg.findDamage();
+    return {jpeg.width(), jpeg.height()};
 }
 
 std::string findDamage(std::span<const std::byte> file, const std::string& format) {
