@@ -16,6 +16,9 @@ std::string oneLine(std::string text) {
         if (c < 0x20 || c == 0x7f) text[i] = ' ';
         if (c == 0xc2 && next >= 0x80 && next <= 0x9f) text[i] = text[i + 1] = ' ';
     }
+    // Its beginning says what failed, its end where.
+    constexpr std::size_t kLongest = 4000;
+    if (text.size() > kLongest) text.replace(kLongest / 2, text.size() - kLongest, " … ");
     return text;
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <functional>
-#include <set>
 
 #include "renderer/core/error.h"
 #include "renderer/core/suggest.h"
+#include "renderer/core/unique_names.h"
 
 namespace cutis {
 namespace {
@@ -185,7 +185,7 @@ class CharacterFinder {
     }
 
     void nameCharacters() {
-        std::set<std::string> taken;
+        UniqueNames names;
         for (std::size_t i = 0; i < scene_.characters.size(); ++i) {
             Character& character = scene_.characters[i];
             std::string base = scene_.nodes[character.root].name;
@@ -193,9 +193,7 @@ class CharacterFinder {
                 base = scene_.meshes[scene_.nodes[character.nodes[0]].mesh].name;
             }
             if (base.empty()) base = "character " + std::to_string(i + 1);
-            character.name = base;
-            for (int n = 2; !taken.insert(character.name).second; ++n)
-                character.name = base + " " + std::to_string(n);
+            character.name = names.take(base);
         }
     }
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "renderer/core/error.h"
+#include "renderer/core/unique_names.h"
 #include "renderer/scene/gltf_accessors.h"
 #include "renderer/scene/gltf_parts.h"
 #include "renderer/scene/pose.h"
@@ -43,9 +43,7 @@ class AnimationReader {
         Animation animation;
         animation.name = entry.string("name");
         if (animation.name.empty()) animation.name = "animation " + std::to_string(index);
-        const std::string base = animation.name;
-        for (int n = 2; !names_.insert(animation.name).second; ++n)
-            animation.name = base + " " + std::to_string(n);
+        animation.name = names_.take(animation.name);
         const JsonView samplers = entry.member("samplers");
         std::map<std::pair<std::size_t, std::size_t>, int> read;  // sampler of the file, components
         for (const JsonView& channel : entry.member("channels").elements()) {
@@ -142,7 +140,7 @@ class AnimationReader {
     Document& document_;
     const NodeMap& nodes_;
     Scene& scene_;
-    std::set<std::string> names_;
+    UniqueNames names_;
 };
 
 }  // namespace

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <set>
 
 #include "renderer/core/error.h"
+#include "renderer/core/unique_names.h"
 #include "renderer/scene/fields.h"
 #include "renderer/scene/gltf_parts.h"
 
@@ -107,13 +107,8 @@ Light readLight(const JsonView& light) {
 // The name of a camera or light: that of its node, as an artist sees it, else its own, else its kind and
 // place.
 std::string uniqueName(const std::string& ofNode, const std::string& own, const std::string& kind,
-                       std::size_t place, std::set<std::string>& taken) {
-    const std::string base = !ofNode.empty() ? ofNode
-                             : !own.empty()  ? own
-                                             : kind + " " + std::to_string(place);
-    std::string name = base;
-    for (int n = 2; !taken.insert(name).second; ++n) name = base + " " + std::to_string(n);
-    return name;
+                       std::size_t place, UniqueNames& names) {
+    return names.take(!ofNode.empty() ? ofNode : !own.empty() ? own : kind + " " + std::to_string(place));
 }
 
 // Parents of all nodes of the file. Fails unless they form a forest.
@@ -223,7 +218,7 @@ class NodeReader {
     Document& document_;
     Scene& scene_;
     NodeMap map_;
-    std::set<std::string> cameraNames_, lightNames_;
+    UniqueNames cameraNames_, lightNames_;
 };
 
 }  // namespace

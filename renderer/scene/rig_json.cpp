@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <vector>
 
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
 #include "renderer/core/suggest.h"
 #include "renderer/scene/fields.h"
+#include "renderer/scene/json_fault.h"
 #include "renderer/scene/light_samples.h"
 #include "renderer/scene/rig.h"
 
@@ -20,7 +20,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
-constexpr int kMaxDepth = 8;  // the format nests four deep
+constexpr std::size_t kMaxDepth = 8;   // the format nests four deep
+constexpr std::size_t kMaxKeys = 100;  // of an object; the format has sixteen at the most
 constexpr std::array<const char*, 4> kTypeNames = {"directional", "point", "spot", "rect"};
 
 // The keys of each object. `object` is a Reader, a Writer or a Lister.
@@ -385,31 +386,12 @@ struct Lister {
     void version(const Field& field) { list.push_back(field); }
 };
 
-// nlohmann keeps the last of repeated keys without a word, so they are caught while parsing.
-Json parseJson(const std::string& text, const Source& source) {
-    std::vector<std::set<std::string>> keys;
-    const Json::parser_callback_t check = [&](int depth, Json::parse_event_t event, Json& parsed) {
-        if (depth > kMaxDepth) refuse(source, "", "it is nested too deep");
-        if (event == Json::parse_event_t::object_start) keys.emplace_back();
-        if (event == Json::parse_event_t::object_end) keys.pop_back();
-        if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-            refuse(source, "", "key '" + parsed.get<std::string>() + "' is given twice in one object");
-        return true;
-    };
-    try {
-        return Json::parse(text, check);
-    } catch (const Json::exception& error) {
-        // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
-        std::string why = error.what();
-        if (const std::size_t end = why.find("] "); end != std::string::npos) why.erase(0, end + 2);
-        refuse(source, "", why);
-    }
-}
-
 Rig parse(const std::string& text, Source& source) {
     if (text.size() > kMaxRigBytes)
         refuse(source, "", "it has more than " + std::to_string(kMaxRigBytes) + " bytes");
-    const Json json = parseJson(text, source);
+    const std::string why = findJsonFault(text, kMaxDepth, kMaxKeys);
+    if (!why.empty()) refuse(source, "", why);
+    const Json json = Json::parse(text);
     Rig rig;
     Reader<Rig> fields(json, rig, source, "");
     describeRig(fields);

@@ -5,6 +5,7 @@
 #include "renderer/core/error.h"
 #include "renderer/core/files.h"
 #include "renderer/core/suggest.h"
+#include "renderer/scene/json_fault.h"
 #include "renderer/scene/json_view.h"
 #include "renderer/scene/skin_material.h"
 
@@ -18,13 +19,11 @@ constexpr const char *kVersion = "cutis_skin", *kMaterials = "materials", *kName
 
 nlohmann::json parse(const std::filesystem::path& file, const JsonSource& source) {
     const std::vector<std::byte> bytes = readFile(file, kMaxBytes);
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    // The depth of what is nested is bounded: the parser's stack is not.
-    nlohmann::json json = nlohmann::json::parse(
-        text, text + bytes.size(),
-        [](int depth, nlohmann::json::parse_event_t, nlohmann::json&) { return depth < 16; }, false);
-    if (json.is_discarded()) throw Error(source.what, "not JSON", source.file);
-    return json;
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    constexpr std::size_t kMaxDepth = 16, kMaxKeys = 100;
+    if (const std::string why = findJsonFault(text, kMaxDepth, kMaxKeys); !why.empty())
+        throw Error(source.what, "not JSON: " + why, source.file);
+    return nlohmann::json::parse(text);
 }
 
 }  // namespace

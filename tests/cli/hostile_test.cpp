@@ -264,6 +264,31 @@ std::vector<Hostile> hostiles() {
                 R"({"cutis_rig": 1, "lights": [{"type": "spot", "intensity": "much", "place": {}}]})"),
          {"a.rig.json", "lights[0].intensity"},
          rig},
+        {"seventy_thousand_lights_of_one_name",
+         glb([](Json& j) {
+             j["extensionsUsed"] = {"KHR_lights_punctual"};
+             j["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", "bulb"}}};
+             for (int i = 1; i <= 70'000; ++i) {
+                 j["nodes"][i] = {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+                 j["scenes"][0]["nodes"].push_back(i);
+             }
+         }),
+         {"too many light samples"},
+         {"--rig", "scene"}},
+        // Sixteen megabytes, the most that is read of a rig.
+        {"rig_of_five_million_lights",
+         [](Where folder) {
+             writeGlb(twoHeads(), folder / "scene.glb");
+             std::string objects = R"({"cutis_rig": 1, "lights": [{})";
+             while (objects.size() < (16 << 20) - 8) objects += ",{}";
+             writeText(folder / "a.rig.json", objects + "]}");
+         },
+         {"a.rig.json", "lights, the limit is"},
+         rig},
+        {"rig_of_a_key_without_end",
+         beside("a.rig.json", R"({"cutis_rig": 1, ")" + std::string(1'000'000, 'a') + R"(": 0})"),
+         {"a.rig.json", "unknown key"},
+         rig},
         {"rig_nested_without_end", beside("a.rig.json", std::string(1'000'000, '[')), {"a.rig.json"}, rig},
         {"rig_of_zeros", beside("a.rig.json", std::string(1'000'000, '\0')), {"a.rig.json"}, rig},
         {"scene_that_is_a_pipe",

@@ -166,6 +166,9 @@ TEST(RigJson, RefusesTooManyLightsAndBytes) {
         std::string::npos);
     EXPECT_NE(messageFor(std::string(kMaxRigBytes + 1, ' ')).find("bytes"), std::string::npos);
     EXPECT_NE(messageFor(std::string(1000000, '[')).find("nested too deep"), std::string::npos);
+    std::string keys;
+    for (int i = 0; i < 200; ++i) keys += ", \"key" + std::to_string(i) + "\": 0";
+    EXPECT_NE(messageFor(R"({"cutis_rig": 1)" + keys + "}").find("more than 100 keys"), std::string::npos);
     EXPECT_NE(messageFor("{\"cutis_rig\": 1, \"name\": \"\xff\xfe\"}").find("parse error"),
               std::string::npos);
 }
