@@ -209,6 +209,7 @@ bool saveRigAs(Session& session, const fs::path& file) {
         }
         session.edits.markSaved();
         autosave(session);
+        rememberFile(session, whole);
         session.say("Saved " + whole.string());
     });
     if (saved && after) {
