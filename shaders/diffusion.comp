@@ -104,7 +104,7 @@ void main() {
     uint tile;
     if (!tileBlock(SHIFT, texel, tile)) return;
     AtlasChart chart = TILE_CHART;
-    if (push.level >= chart.gaussianCount) return;
+    if (push.level >= chart.blurredCount) return;
     chartLow = ivec2(chart.rect.xy >> SHIFT);
     chartHigh = ivec2((chart.rect.xy + chart.rect.zw + (1u << SHIFT) - 1u) >> SHIFT);
     float previous = push.level > 0u ? gaussians[chart.firstGaussian + push.level - 1u].variance : 0.0;  // v_{k-1}, mm²

@@ -85,7 +85,8 @@ void addLevels(texture2DArray image, uint first, uint end, float scale, ivec2 te
         else here = levelAt(image, (vec2(texel) + 0.5) * scale, k - first, island, here);
         sum += term.weight * here;
 #ifdef TRANSLUCENCY
-        float through = shareThrough(term.variance);
+        // Wide Gaussians have the light from behind in their sum.
+        float through = k < chart.blurredCount ? shareThrough(term.variance) : 0.0;
         if (through > 1e-6) {
             there = levelAt(image, place * scale, k - first, entryIsland, there);
             sum += term.weight * through * there;

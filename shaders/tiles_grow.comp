@@ -35,7 +35,7 @@ void main() {
     ivec2 reach = ivec2(1 << push.shift);
     if (push.axis < 2u) {
         reach = ivec2(0);
-        if (push.level < chart.gaussianCount) {
+        if (push.level < chart.blurredCount) {
             float variance = gaussians[chart.firstGaussian + push.level].variance;
             float previous = push.level > 0u ? gaussians[chart.firstGaussian + push.level - 1u].variance : 0.0;
             vec3 perMm = vec3(uintBitsToFloat(state.perMmU), uintBitsToFloat(state.perMmV), uintBitsToFloat(state.perMmMixed));

@@ -239,7 +239,6 @@ void computeMetric(const Scene& scene, const Geometry& geometry, const std::vect
     texelSizes.reserve(geometry.skinTriangleCount);
     std::vector<std::vector<std::pair<double, double>>> longestSides(atlas.charts.size());  // the same of each chart
     std::vector<std::vector<std::pair<double, double>>> shortestSides(atlas.charts.size());
-    std::map<int, double> areaOfBody;  // mm², a character
     for (std::size_t t = 0; t < geometry.skinTriangleCount; ++t) {
         const std::uint32_t* v = &geometry.indices[t * 3];
         const double mmPerUnit = mmPerUnitOf(scene, geometry.draws[geometry.triangleDraws[t]].material);
@@ -249,7 +248,6 @@ void computeMetric(const Scene& scene, const Geometry& geometry, const std::vect
         const glm::dvec3 p1 = (glm::dvec3(geometry.positions[v[1]]) - p) * mmPerUnit;
         const glm::dvec3 p2 = (glm::dvec3(geometry.positions[v[2]]) - p) * mmPerUnit;
         const std::uint32_t chart = geometry.drawInfos[geometry.triangleDraws[t]].chart;
-        areaOfBody[atlas.charts[chart].character] += 0.5 * glm::length(glm::cross(p1, p2));
         const double det = e1.x * e2.y - e1.y * e2.x;
         if (!(std::abs(det) > 1e-12)) continue;
         const glm::dvec3 du = (p1 * e2.y - p2 * e1.y) / det, dv = (p2 * e1.x - p1 * e2.x) / det;
@@ -262,7 +260,7 @@ void computeMetric(const Scene& scene, const Geometry& geometry, const std::vect
         shortestSides[chart].emplace_back(std::sqrt(std::max(mean - apart, 0.0)), texels);
     }
     for (std::size_t c = 0; c < atlas.charts.size(); ++c) {
-        atlas.charts[c].bodyMm2 = areaOfBody[atlas.charts[c].character];
+        atlas.charts[c].bodyMm2 = geometry.skinMm2[atlas.charts[c].character];
         atlas.charts[c].coarsestMm = weightedQuantile(longestSides[c], 0.8);
         atlas.charts[c].finestMm = weightedQuantile(shortestSides[c], 0.02);
     }

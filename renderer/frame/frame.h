@@ -20,6 +20,7 @@
 #include "renderer/passes/environment.h"
 #include "renderer/passes/environment_visibility.h"
 #include "renderer/passes/resources.h"
+#include "renderer/passes/wide_gaussians.h"
 #include "renderer/scene/light.h"
 
 namespace cutis {
@@ -46,6 +47,7 @@ struct FrameContext {
     shared::ViewCamera camera{};
     Detail detail;
     Lighting lighting;
+    int wideGaussians = 0;  // Gaussians that are wide beside the body whose skin they blur
 
     // Made before the frame
     EnvironmentMaps environmentMaps;
@@ -56,6 +58,7 @@ struct FrameContext {
     std::vector<std::uint32_t> occluderIndices;      // until they are uploaded
     std::array<SeamMap, kCoarseLevels + 1> seamMaps;  // of each resolution of diffusion, until they are uploaded
     UploadedScene scene;
+    LightPatches patches;
     gpu::Buffer oppositeVertices;
     TileBuffers viewTile;
     PictureTarget target;

@@ -136,6 +136,22 @@ std::vector<SkinLayout> layOutDraws(const Scene& scene, const std::vector<Geomet
     return layouts;
 }
 
+// mm², a character, at rest.
+std::vector<double> skinAreas(const Scene& scene, const Geometry& geometry) {
+    const std::vector<glm::vec3>& positions = geometry.restPositions.empty() ? geometry.positions : geometry.restPositions;
+    std::vector<double> areas(scene.characters.size(), 0);
+    for (std::size_t t = 0; t < geometry.skinTriangleCount; ++t) {
+        const GeometryDraw& draw = geometry.draws[geometry.triangleDraws[t]];
+        const double mmPerUnit = scene.materials[draw.material].skin->mmPerUnit;
+        const std::uint32_t* v = &geometry.indices[t * 3];
+        const glm::dvec3 p = positions[v[0]];
+        const glm::dvec3 p1 = (glm::dvec3(positions[v[1]]) - p) * mmPerUnit;
+        const glm::dvec3 p2 = (glm::dvec3(positions[v[2]]) - p) * mmPerUnit;
+        areas[draw.character] += 0.5 * glm::length(glm::cross(p1, p2));
+    }
+    return areas;
+}
+
 }  // namespace
 
 void followPose(const Scene& scene, Geometry& geometry) {
@@ -231,6 +247,7 @@ Geometry flattenScene(const Scene& scene) {
         }
     }
     followPose(scene, geometry);
+    geometry.skinMm2 = skinAreas(scene, geometry);
     return geometry;
 }
 

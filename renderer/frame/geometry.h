@@ -47,6 +47,7 @@ struct Geometry {
     Bounds casters;  // holds that, and grows in steps where something can move, so that light views seldom change
     std::uint32_t skinVertexCount = 0, skinTriangleCount = 0;
     std::uint32_t probeCount = 0;  // vertices that are not skin
+    std::vector<double> skinMm2;   // a character: area of its skin at rest
 };
 
 // Skin is laid out for the atlas, with a warning where its texture coordinates do not serve (frame/skin_layout.h). Throws

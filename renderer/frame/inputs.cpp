@@ -46,7 +46,7 @@ std::uint64_t hashProfiles(const FrameContext& frame) {
 std::uint64_t hashLevels(const FrameContext& frame) {
     const std::vector<ChartRange> charts = chartRanges(*frame.input->scene, frame.atlas, *frame.settings);
     ContentHash hash;
-    for (const ChartRange& chart : charts) hash.add(chart.profile.gaussians.size());
+    for (const ChartRange& chart : charts) hash.add(chart.profile.gaussians.size(), chart.blurred);
     return hash.add(profileNumbers(charts)).add(levelShifts(charts, reducesLevels(*frame.settings))).value();
 }
 

@@ -5,6 +5,7 @@
 #include "renderer/core/hash.h"
 #include "renderer/frame/changed_groups.h"
 #include "renderer/frame/frame.h"
+#include "renderer/frame/light_patches.h"
 #include "renderer/frame/opposite.h"
 #include "renderer/gpu/device.h"
 #include "renderer/passes/diffusion.h"
@@ -205,6 +206,11 @@ void diffusionRow(FrameContext& frame) {
     }
 }
 
+void wideGaussiansRow(FrameContext& frame) {
+    recordWideGaussians(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.tiles,
+                        frame.scene.charts, frame.patches, frame.skin);
+}
+
 void exitanceRow(FrameContext& frame) {
     recordExitance(*frame.device, *frame.commands, frame.scene.buffers, frame.surface, frame.tiles,
                    frame.settings->chain == Chain::published ? ThicknessStorage::bytes : ThicknessStorage::floats,
@@ -291,6 +297,9 @@ std::vector<PassRow> rowsBeforeTheFrame() {
          .writes = {R::profiles}, .record = uploadProfiles, .forget = forgetProfiles},
         {.name = "seams", .phase = Phase::upload, .need = Need::seams, .inputs = {I::levels},
          .reads = {R::layout}, .writes = {R::seams}, .record = uploadSeams, .ahead = makeSeams, .forget = forgetSeams},
+        {.name = "light_patches", .phase = Phase::upload, .need = Need::wideGaussians, .inputs = {},
+         .reads = {R::meshes, R::layout, R::profiles}, .writes = {R::lightPatches}, .record = uploadLightPatches,
+         .forget = forgetLightPatches},
         {.name = "opposite_sides", .phase = Phase::upload, .need = Need::oppositeSides, .inputs = {I::profiles},
          .reads = {R::meshes, R::layout}, .writes = {R::oppositeVertices}, .record = makeOppositeVertices,
          .forget = forgetOppositeVertices},
@@ -341,6 +350,9 @@ std::vector<PassRow> rowsOfTheFrame() {
         {.name = "diffusion", .phase = Phase::frame, .need = Need::litSkin, .inputs = {I::profiles, I::chain},
          .reads = {R::surface, R::irradiance}, .writes = {R::levels}, .record = diffusionRow, .forget = forgetLevels,
          .amends = true, .byGroup = true},
+        {.name = "wide_gaussians", .phase = Phase::frame, .need = Need::wideGaussians, .inputs = {},
+         .reads = {R::surface, R::irradiance, R::levels, R::lightPatches}, .updates = {R::levels}, .writes = {},
+         .record = wideGaussiansRow},
         {.name = "exitance", .phase = Phase::frame, .need = Need::litSkin, .inputs = {I::profiles, I::chain},
          .reads = {R::levels}, .readsIf = {R::thickness}, .writes = {R::exitance}, .record = exitanceRow,
          .forget = forgetExitance,

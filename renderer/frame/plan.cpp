@@ -32,13 +32,13 @@ Needs computeNeeds(const NeedsInput& input) {
         !skin  ? "nothing is skin"
         : !lit ? "no light reaches the skin"
                : "skin is lit");
-    const bool wholeSkin = input.chain == Chain::published;
-    set(Need::hiddenSkin, skin && lit && input.prune && !input.anyView && !wholeSkin,
+    const bool published = input.chain == Chain::published, wide = input.wideGaussians > 0;
+    set(Need::hiddenSkin, skin && lit && input.prune && !input.anyView && !published,
         !skin           ? "nothing is skin"
         : !lit          ? "no light reaches the skin"
         : !input.prune  ? "--no-prune: skin is lit whether it is seen or not"
         : input.anyView ? "skin is lit for every view"
-        : wholeSkin     ? "the published chain blurs the whole atlas"
+        : published     ? "the published chain blurs the whole atlas"
                         : "only what the picture shows of the skin is worth lighting");
     set(Need::lights, lights, lights ? count(input.lightSamples, "light sample") : "no lights");
     set(Need::areaLights, input.areaSamples > 0,
@@ -70,9 +70,14 @@ Needs computeNeeds(const NeedsInput& input) {
         !skin             ? "nothing is skin"
         : !lit            ? "no light reaches the skin"
         : input.seams < 1 ? "no skin goes on beyond the border of its UV island"
-        : wholeSkin
+        : published
             ? "the published chain stops at the borders of UV islands"
             : count(static_cast<int>(input.seams), "edge") + " of UV islands beyond which skin goes on");
+    set(Need::wideGaussians, skin && lit && wide,
+        !skin   ? "nothing is skin"
+        : !lit  ? "no light reaches the skin"
+        : !wide ? "no Gaussian is wide beside the body"
+                : count(input.wideGaussians, "Gaussian") + " wide beside the body");
     set(Need::motion, skin && lit && (input.animations > 0 || !input.prune),
         !skin                  ? "nothing is skin"
         : !lit                 ? "no light"

@@ -14,9 +14,9 @@ struct FrameContext;
 // What a scene may need. A row of the pass table runs when its need is met.
 enum class Need {
     always, skin, litSkin, hiddenSkin, lights, areaLights, shadows, translucency, oppositeSides, environment,
-    skinSpecular, transparency, seams, motion, clearcoat, sheen, transmission, secondLobe, detail
+    skinSpecular, transparency, seams, motion, clearcoat, sheen, transmission, secondLobe, detail, wideGaussians
 };
-inline constexpr int kNeedCount = 19;
+inline constexpr int kNeedCount = 20;
 
 // Each need with the reason for which it is met or not, in words.
 struct Needs {
@@ -34,6 +34,7 @@ struct NeedsInput {
     bool poresResolved = false;                     // some pixel is narrow enough for them
     int coatedMaterials = 0, sheenMaterials = 0, glassMaterials = 0;  // of what is not skin
     std::size_t seams = 0;  // edges of UV islands beyond which the skin goes on
+    int wideGaussians = 0;  // beside the body whose skin they blur (frame/light_patches.h)
     bool environment = false;
     int animations = 0;
     Merge merge = Merge::min;
@@ -77,7 +78,7 @@ inline constexpr int kInputCount = 22;
 enum class Resource {
     // Made before the frame
     environmentMaps, environmentSettings, skyDirections, meshes, occluders, textures, materials, pores, layout, draws, ranges, profiles,
-    stretch, seams, oppositeVertices, lights, viewBuffers, target,
+    stretch, seams, lightPatches, oppositeVertices, lights, viewBuffers, target,
     // Written by passes
     surface, seen, lightMaps, thickness, tiles, visibility, irradiance, levels, exitance, picture
 };

@@ -13,6 +13,7 @@
 #include "renderer/frame/changed_groups.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/inputs.h"
+#include "renderer/frame/light_patches.h"
 #include "renderer/frame/results.h"
 #include "renderer/gpu/device.h"
 #include "renderer/passes/light_views.h"
@@ -54,6 +55,7 @@ NeedsInput factsOf(const FrameContext& frame) {
         facts.glassMaterials += material.transmission > 0;
     }
     facts.seams = frame.skinMesh.seams;
+    facts.wideGaussians = frame.wideGaussians;
     for (const int material : skinMaterials(scene, frame.geometry)) {
         facts.translucentSkinMaterials += scene.materials[material].skin->translucency;
         const SkinMaterial& skin = *scene.materials[material].skin;
@@ -135,6 +137,7 @@ void Renderer::State::readGeometry() {
 // All that decisions follow from.
 void Renderer::State::read() {
     readGeometry();
+    frame.wideGaussians = countWideGaussians(*frame.input->scene, frame.geometry, *frame.settings);
     findGroupsSeen();
     chooseDetail(frame);
     readLighting(frame);
@@ -146,7 +149,7 @@ void Renderer::State::read() {
 
 void Renderer::State::findGroupsSeen() {
     const RenderSettings& settings = *frame.settings;
-    const bool oneView = !frame.anyView && settings.prune && settings.chain == Chain::exact;
+    const bool oneView = !frame.anyView && settings.prune && settings.chain == Chain::exact && frame.wideGaussians == 0;
     frame.groupsSeen.clear();
     for (const Bounds& group : frame.groups) {
         const glm::vec3 low(group.min - frame.geometry.origin), high(group.max - frame.geometry.origin);

@@ -53,7 +53,7 @@ const char* nameOf(Input input) {
 
 const char* nameOf(Resource resource) {
     constexpr const char* kNames[] = {"filtered environment", "environment settings", "directions of the sky", "meshes", "occluders of the sky",
-                                      "textures", "materials", "pores", "atlas layout", "draws", "ranges of draws", "profiles", "stretch", "seams", "opposite sides",
+                                      "textures", "materials", "pores", "atlas layout", "draws", "ranges of draws", "profiles", "stretch", "seams", "light patches", "opposite sides",
                                       "lights", "view buffers", "picture's memory", "surface", "seen triangles",
                                       "light maps", "thickness", "needed texels", "visibility of the sky", "irradiance",
                                       "blurred levels", "exitance", "picture"};

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "renderer/frame/frame.h"
+#include "renderer/frame/light_patches.h"
 #include "renderer/frame/seam_map.h"
 #include "renderer/frame/stretch.h"
 #include "renderer/frame/upload_parts.h"
@@ -26,9 +27,14 @@ skin::Profile profileOf(const Scene& scene, int material, int gaussians) {
 
 std::vector<double> reachBeyondBorders(const Scene& scene, const Geometry& geometry, const RenderSettings& settings) {
     std::vector<double> reaches(scene.materials.size(), 0);
+    std::vector<double> bodies(scene.materials.size(), 0);  // mm², the largest
+    for (const GeometryDraw& draw : geometry.draws) {
+        if (draw.skin) bodies[draw.material] = std::max(bodies[draw.material], geometry.skinMm2[draw.character]);
+    }
     for (const int material : skinMaterials(scene, geometry)) {
         double before = 0, widest = 0;
         for (const skin::Gaussian& g : profileOf(scene, material, settings.gaussians).gaussians) {
+            if (settings.chain == Chain::exact && isWide(g.variance, bodies[material])) continue;  // not blurred
             widest = std::max(widest, g.variance - before);
             before = g.variance;
         }
@@ -60,8 +66,8 @@ skin::Profile narrowAsOne(const skin::Profile& profile, double variance) {
 
 // The profile as texture space can hold it, of a body whose skin has that area (mm²). `texel`: the coarsest texel of a level, mm.
 //
-// A normalised blur loses nothing at the ends of the body, so a Gaussian that is wide beside it counts by what it gathers there
-// (skin::gatheredShare); and once it is as wide as the body, a wider one is as even over it. A blur of many times the width of
+// A normalised blur loses nothing at the ends of the body, so a Gaussian counts by what it gathers there (skin::gatheredShare); but one
+// that is wide beside the body is not blurred at all (passes/wide_gaussians.h). A blur of many times the width of
 // both a texel and the blur before it would step over what it is to blur, for its taps are few: levels that nothing
 // reads (weight 0) lead up to it. Profiles of skin on bodies of people need neither.
 skin::Profile onBody(const skin::Profile& profile, double area, double texel) {
@@ -70,8 +76,12 @@ skin::Profile onBody(const skin::Profile& profile, double area, double texel) {
     skin::Profile result;
     double before = 0;
     for (skin::Gaussian g : profile.gaussians) {
+        if (isWide(g.variance, area)) {
+            result.gaussians.push_back(g);
+            continue;
+        }
         g.weight *= skin::gatheredShare(g.variance, area);
-        g.variance = std::max({std::min(g.variance, area), before, 1e-30});
+        g.variance = std::max({g.variance, before, 1e-30});
         for (double step = kWidestStep * std::max({before, texel * texel, 1e-30}); step < g.variance; step *= kWidestStep) {
             result.gaussians.push_back({step, glm::dvec3(0)});
         }
@@ -100,6 +110,11 @@ std::vector<ChartRange> chartRanges(const Scene& scene, const Atlas& atlas, cons
             range.profile = narrowAsOne(range.profile, kLookupVariance * chart.finestMm * chart.finestMm);
         }
         if (settings.chain == Chain::exact) range.profile = onBody(range.profile, chart.bodyMm2, coarsestTexel);
+        range.blurred = static_cast<std::uint32_t>(std::count_if(
+            range.profile.gaussians.begin(), range.profile.gaussians.end(), [&](const skin::Gaussian& g) {
+                return settings.chain == Chain::published || !isWide(g.variance, chart.bodyMm2);
+            }));
+        range.facing = !scene.materials[chart.material].skin->translucency;
         range.mmPerUnit = static_cast<float>(scene.materials[chart.material].skin->mmPerUnit);
         range.coarsestMm = chart.coarsestMm;
         range.receiverGroup = static_cast<std::uint32_t>(chart.character);

@@ -1,5 +1,6 @@
 #include "renderer/passes/atlas_tiles.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include "renderer/gpu/device.h"
@@ -69,6 +70,11 @@ AtlasTiles recordCoveredTiles(gpu::Device& device, gpu::Commands& commands, cons
         chart.firstTile = static_cast<std::uint32_t>(tiles.size());
         chart.firstGaussian = range.firstGaussian;
         chart.gaussianCount = static_cast<std::uint32_t>(range.profile.gaussians.size());
+        chart.blurredCount = range.blurred;
+        chart.litWhole = std::any_of(ranges.begin(), ranges.end(), [&](const ChartRange& other) {
+            return other.receiverGroup == range.receiverGroup && other.blurred < other.profile.gaussians.size();
+        });
+        result.wholeBodies = result.wholeBodies || chart.litWhole != 0;
         chart.mmPerUnit = range.mmPerUnit;
         for (std::uint32_t y = 0; y < chart.cells.y; ++y) {
             for (std::uint32_t x = 0; x < chart.cells.x; ++x) {
@@ -137,6 +143,12 @@ void recordNeededTiles(gpu::Device& device, gpu::Commands& commands, const Scene
         recordSeamTiles(device, commands, scene.seams, tiles, tiles.level(level), shift, turn);
         add(tiles.scratch(level), level, 1, shift, finer);
         add(tiles.scratch(level) + 1, level, 0, shift, finer);
+    }
+    if (tiles.wholeBodies) {
+        const gpu::Program& whole = device.program("tiles_whole.comp");
+        commands.dispatch(whole,
+                          {{"AtlasChartBuffer", tiles.charts}, {"AtlasTileBuffer", tiles.tiles}, {"TileStateBuffer", tiles.states}},
+                          glm::uvec2(tiles.count, tiles.lit()), gpu::groupsFor(whole, tiles.count));
     }
     recordSeamTiles(device, commands, scene.seams, tiles, tiles.lit(), 0, turn);
     // Neighbours are all that bilinear lookups of probes reach.

@@ -32,6 +32,7 @@ struct AtlasTiles {
     gpu::Buffer list, counts, dispatches;
     std::vector<std::uint32_t> receiverGroups;  // a chart
     std::uint32_t count = 0;                    // of tiles, needed or not
+    bool wholeBodies = false;                   // some charts are needed as wholes: shared::AtlasChart::litWhole
     std::vector<bool> changed;  // of the receiver groups: what passes run on, keeping what they wrote elsewhere. Empty: all
     std::vector<std::uint32_t> shifts;  // of each level of diffusion: its side is the atlas' / 2^shift
 

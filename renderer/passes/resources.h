@@ -75,6 +75,8 @@ struct ChartRange {
     glm::uvec4 rect{0};
     std::uint32_t firstGaussian = 0;
     skin::Profile profile;  // in mm², scaled and reduced as the frame uses it
+    std::uint32_t blurred = 0;  // so many of its Gaussians, the narrowest, are; the others are wide (passes/wide_gaussians.h)
+    bool facing = false;        // not translucent: it gets light of skin that faces where it does
     float mmPerUnit = 1000;
     double coarsestMm = 0;  // longest side of a texel, but for the largest fifth of them
     std::uint32_t receiverGroup = 0;

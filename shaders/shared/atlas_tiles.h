@@ -16,6 +16,8 @@ struct AtlasChart {
     uvec2 cells;
     uint firstTile;   // the chart's tiles follow one another, row by row of its cells
     uint firstGaussian, gaussianCount;
+    uint blurredCount;  // of them; the others are wide beside the body (passes/wide_gaussians.h)
+    uint litWhole;  // 1: some Gaussian of its body's skin is wide, which then takes the light of all of it
     float mmPerUnit;
 };
 

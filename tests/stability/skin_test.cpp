@@ -137,12 +137,13 @@ std::vector<Extreme> profiles() {
     }
     // The stiff case: one Gaussian far below a texel, the next wider than the body.
     cases.push_back(wideFurnace("eight_decades", skinOf({1e-4, 1e4})));
-    // Wide ones that nothing leads up to, seen as the light of one side spreads to the other. Far wider than
-    // the body light is even over it; in the atlas poles hold more texels than they have surface, and borders
-    // are not crossed all the way.
+    // Wide ones that nothing leads up to, seen as the light of one side spreads to the other: blurred over the
+    // charts up to a variance of 1,256 mm², a hundredth of the body's area, and summed over its skin above.
     cases.push_back(sideLit("side_lit_variance_1e2", 1e2, 0.0055));
-    cases.push_back(sideLit("side_lit_variance_1e4", 1e4, 0.195));
-    cases.push_back(sideLit("side_lit_variance_1e6", 1e6, 0.35));
+    cases.push_back(sideLit("side_lit_variance_1e3", 1e3, 0.047));
+    cases.push_back(sideLit("side_lit_variance_2e3", 2e3, 0.008));
+    cases.push_back(sideLit("side_lit_variance_1e4", 1e4, 0.0042));
+    cases.push_back(sideLit("side_lit_variance_1e6", 1e6, 0.0034));
     cases.push_back(furnace("one_gaussian", skinOf({1.0})));
     cases.push_back(furnace("sixteen_gaussians", skinOf({1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06, 0.1, 0.2, 0.4,
                                                          0.8, 1.6, 3.2, 5, 7, 9, 12})));
