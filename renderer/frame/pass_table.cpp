@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "renderer/core/error.h"
 #include "renderer/core/hash.h"
 #include "renderer/frame/changed_groups.h"
 #include "renderer/frame/frame.h"
@@ -68,6 +69,18 @@ void makeTarget(FrameContext& frame) {
 
 // Draws the views that no layer holds yet. Only lights and poses may have changed for a layer to stay, and of those whose
 // view shows it neither.
+// Maps are layers of one image, of which a device has only so many.
+void checkMapCount(const FrameContext& frame, std::uint32_t maps, std::size_t samples) {
+    const std::uint32_t most = frame.device->limits().maxImageArrayLayers;
+    if (maps <= most) return;
+    throw Error("cannot light the scene",
+                std::to_string(samples) + " light samples with shadows take " + std::to_string(maps) +
+                    " light maps, one for each character that they may reach, the limit is " + std::to_string(most) +
+                    ": " + std::to_string(std::uint64_t(samples) * most / maps) +
+                    " samples would fit (fewer lights, or \"samples\" of area lights)",
+                frame.device->info().name);
+}
+
 void lightMapsRow(FrameContext& frame) {
     const std::vector<LightSample> shadowed = shadowedSamples(frame);
     LightMaps& maps = frame.lights;
@@ -85,6 +98,7 @@ void lightMapsRow(FrameContext& frame) {
     maps.views = gpu::Buffer(*frame.device, {.name = "light views", .bytes = maps.viewList.size() * sizeof(shared::LightView)});
     frame.commands->upload(maps.views, maps.viewList);
     if (assigned.newImage) {
+        checkMapCount(frame, frame.lightMapLayers.layers(), shadowed.size());
         const auto renew = [&](gpu::Image& image, const char* name, VkFormat format) {
             const auto size = static_cast<std::uint32_t>(maps.size);
             gpu::Image renewed(*frame.device, {.name = name, .format = format, .width = size, .height = size,

@@ -139,6 +139,20 @@ TEST_F(Render, RefusesInOneLine) {
               (std::vector<std::string>{"bad.rig.json", "env.rig.json", "heads.glb"}));
 }
 
+// A map of each of 4096 samples for each of two heads, where an image of the software device has 2048 layers.
+TEST_F(Render, SaysHowManySamplesWouldFit) {
+    Rig rig;
+    Light& light = rig.lights.emplace_back();
+    light.name = "wall";
+    light.type = LightType::rect;
+    light.position = {0, 0, 2};
+    light.size = {1, 1};
+    light.samples = 4096;
+    saveRig(rig, folder_ / "wall.rig.json");
+    expectFailure(render({"--rig", folder_ / "wall.rig.json", "-o", folder_ / "a.exr"}), 1,
+                  {"cannot light the scene", "8192 light maps", "1024 samples would fit"});
+}
+
 TEST_F(Render, NeverReplacesItsInputs) {
     const std::string sky = folder_ / "sky.exr";
     writeExr(sky, {2, 1, 3, {1, 1, 1, 1, 1, 1}});
