@@ -16,6 +16,12 @@ std::string shortName(const std::string& scene) {
     return std::filesystem::path(scene).filename().string();
 }
 
+// `tight`: little about the names of tabs, so that all seven find room in one row.
+void pushTabPadding(bool tight) {
+    const ImVec2 padding = ImGui::GetStyle().FramePadding;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {tight ? 0.3f * padding.x : padding.x, padding.y});
+}
+
 template <class Draw>
 void drawSide(const char* name, float x, const Layout& layout, const Draw& draw) {
     ImGui::SetNextWindowPos({x, layout.top});
@@ -24,18 +30,20 @@ void drawSide(const char* name, float x, const Layout& layout, const Draw& draw)
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoBackground);
-    if (ImGui::BeginTabBar(name, ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip)) {
+    pushTabPadding(!layout.both);
+    const bool shown =
+        ImGui::BeginTabBar(name, ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip);
+    ImGui::PopStyleVar();
+    if (shown) {
         draw();
         ImGui::EndTabBar();
     }
     ImGui::End();
 }
 
-// `tight`: with little about its name, so that all seven find room in one row.
 template <class Draw>
 void drawTab(const char* name, bool tight, const Draw& draw) {
-    const ImVec2 padding = ImGui::GetStyle().FramePadding;
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {tight ? 0.4f * padding.x : padding.x, padding.y});
+    pushTabPadding(tight);
     const bool shown = ImGui::BeginTabItem(name);
     ImGui::PopStyleVar();
     if (!shown) return;

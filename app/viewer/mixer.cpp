@@ -63,8 +63,9 @@ Rig aloneRig(const Document& document, const Contribution& contribution) {
 }
 
 bool sameShape(const Contribution& a, const Contribution& b) {
-    return a.ofEnvironment == b.ofEnvironment && shapeOf(a.light) == shapeOf(b.light) &&
-           shapeOf(a.environment) == shapeOf(b.environment);
+    if (a.ofEnvironment != b.ofEnvironment) return false;
+    const EnvironmentSettings ofA = shapeOf(a.environment), ofB = shapeOf(b.environment);
+    return shapeOf(a.light) == shapeOf(b.light) && ofA == ofB;
 }
 
 bool canMix(const std::vector<Contribution>& contributions, const Document& document) {
