@@ -1,5 +1,6 @@
 // What most files include, compiled once: of the standard library and of GLM nothing changes. Files include what they use all
-// the same, as builds with CUTIS_PRECOMPILED=OFF show.
+// the same, as builds with CUTIS_PRECOMPILED=OFF show. Without nlohmann/json.hpp: whoever sees it instantiates its parser, half a second
+// a file, for the sake of its literals.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +24,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
 #include <optional>
