@@ -19,7 +19,7 @@ std::string shortName(const std::string& scene) {
 // `tight`: little about the names of tabs, so that all seven find room in one row.
 void pushTabPadding(bool tight) {
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {tight ? 0.3f * padding.x : padding.x, padding.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {tight ? 0.2f * padding.x : padding.x, padding.y});
 }
 
 template <class Draw>
