@@ -17,9 +17,14 @@ std::string shortName(const std::string& scene) {
 }
 
 // `tight`: little about the names of tabs, so that all seven find room in one row.
-void pushTabPadding(bool tight) {
-    const ImVec2 padding = ImGui::GetStyle().FramePadding;
+void pushTabStyle(bool tight) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const ImVec2 padding = style.FramePadding, gap = style.ItemInnerSpacing;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {tight ? 0.2f * padding.x : padding.x, padding.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {tight ? 0.5f * gap.x : gap.x, gap.y});
+}
+void popTabStyle() {
+    ImGui::PopStyleVar(2);
 }
 
 template <class Draw>
@@ -30,10 +35,10 @@ void drawSide(const char* name, float x, const Layout& layout, const Draw& draw)
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoBackground);
-    pushTabPadding(!layout.both);
+    pushTabStyle(!layout.both);
     const bool shown =
         ImGui::BeginTabBar(name, ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip);
-    ImGui::PopStyleVar();
+    popTabStyle();
     if (shown) {
         draw();
         ImGui::EndTabBar();
@@ -43,9 +48,9 @@ void drawSide(const char* name, float x, const Layout& layout, const Draw& draw)
 
 template <class Draw>
 void drawTab(const char* name, bool tight, const Draw& draw) {
-    pushTabPadding(tight);
+    pushTabStyle(tight);
     const bool shown = ImGui::BeginTabItem(name);
-    ImGui::PopStyleVar();
+    popTabStyle();
     if (!shown) return;
     ImGui::BeginChild(name);
     draw();
