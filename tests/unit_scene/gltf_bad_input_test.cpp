@@ -42,6 +42,14 @@ json& primitive(GltfFile& file) {
     return file.json["meshes"][0]["primitives"][0];
 }
 
+// The file's lights are these, and its first node shines with the first.
+auto withLights(const char* lights) {
+    return [lights](GltfFile& f) {
+        f.json["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(lights);
+        f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    };
+}
+
 const BadFile kBadFiles[] = {
     {"no asset", [](GltfFile& f) { f.json.erase("asset"); }, ""},
     {"version 1", [](GltfFile& f) { f.json["asset"]["version"] = "1.0"; }, "asset.version"},
@@ -239,32 +247,12 @@ const BadFile kBadFiles[] = {
          f.json["nodes"][0]["scale"] = {1e200, 1e200, 1e200};
      },
      ""},
-    {"light out of range",
-     [](GltfFile& f) {
-         f.json["extensions"]["KHR_lights_punctual"]["lights"] = json::array();
-         f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
-     },
-     "nodes[0].extensions.KHR_lights_punctual.light"},
-    {"light of no kind",
-     [](GltfFile& f) {
-         f.json["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(R"([{"type": "laser"}])");
-         f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
-     },
-     "extensions.KHR_lights_punctual.lights[0].type"},
+    {"light out of range", withLights("[]"), "nodes[0].extensions.KHR_lights_punctual.light"},
+    {"light of no kind", withLights(R"([{"type": "laser"}])"), "extensions.KHR_lights_punctual.lights[0].type"},
     // Beyond what sums in single precision hold.
-    {"light of 1e300 candela",
-     [](GltfFile& f) {
-         f.json["extensions"]["KHR_lights_punctual"]["lights"] =
-             json::parse(R"([{"type": "point", "intensity": 1e300}])");
-         f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
-     },
+    {"light of 1e300 candela", withLights(R"([{"type": "point", "intensity": 1e300}])"),
      "extensions.KHR_lights_punctual.lights[0].intensity"},
-    {"light of colour 1e30",
-     [](GltfFile& f) {
-         f.json["extensions"]["KHR_lights_punctual"]["lights"] =
-             json::parse(R"([{"type": "point", "color": [1, 1e30, 1]}])");
-         f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
-     },
+    {"light of colour 1e30", withLights(R"([{"type": "point", "color": [1, 1e30, 1]}])"),
      "extensions.KHR_lights_punctual.lights[0].color"},
 };
 
